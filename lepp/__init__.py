@@ -1,0 +1,1 @@
+"""The mathematics: triangulations and their longest-edge propagation paths."""
