@@ -1,0 +1,5 @@
+"""The statistics of a study: from its results to tidy tables."""
+
+from study.analysis.table import Column, Table
+
+__all__ = ["Column", "Table"]
