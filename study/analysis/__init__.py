@@ -1,5 +1,6 @@
 """The statistics of a study: from its results to tidy tables."""
 
+from study.analysis.analyse import analyse
 from study.analysis.table import Column, Table
 
-__all__ = ["Column", "Table"]
+__all__ = ["Column", "Table", "analyse"]

@@ -4,7 +4,9 @@ The report draws these tables and formats their cells; the numbers on disk are e
 """
 
 import re
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import Self
 
 import pandas as pd
 
@@ -44,6 +46,19 @@ class Column:
         return f"{self.name} [{self.unit}]" if self.unit else self.name
 
 
+METHOD = Column("method", "Triangulation")
+DISTRIBUTION = Column("distribution", "Distribution")
+N_POINTS = Column("n_points", "Points", "points", "int")
+
+
+def _series(cells: list[object], shown_as: str) -> pd.Series:
+    if shown_as == "text":
+        return pd.Series(cells, dtype="str")
+    if shown_as == "int":
+        return pd.Series(cells, dtype="Int64" if any(map(pd.isna, cells)) else "int64")
+    return pd.Series(cells, dtype="float64")
+
+
 @dataclass(frozen=True)
 class Table:
     """Tidy rows and the description of their columns.
@@ -71,9 +86,31 @@ class Table:
     def __post_init__(self) -> None:
         described = [column.name for column in self.columns]
         if list(self.frame.columns) != described:
-            raise ValueError(
-                f"table {self.name!r} has columns {list(self.frame.columns)}, described: {described}"
-            )
+            found = list(self.frame.columns)
+            raise ValueError(f"table {self.name!r} has columns {found}, described: {described}")
+
+    @classmethod
+    def from_rows(
+        cls,
+        name: str,
+        title: str,
+        columns: tuple[Column, ...],
+        rows: Iterable[Mapping[str, object]],
+        note: str = "",
+    ) -> Self:
+        """Make a table of one mapping a row; what a mapping lacks is a null cell.
+
+        Columns of format ``int`` become int64 (nullable Int64 where cells are null), ``text``
+        stays as it is, everything else becomes float64.
+        """
+        rows = list(rows)
+        frame = pd.DataFrame(
+            {
+                column.name: _series([row.get(column.name) for row in rows], column.format)
+                for column in columns
+            }
+        )
+        return cls(name, title, frame, columns, note)
 
     def to_csv(self) -> str:
         """Text of the table as CSV, header with units, every float at full precision."""

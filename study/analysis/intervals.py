@@ -1,0 +1,35 @@
+"""Intervals of means, and what an interval says of a bound."""
+
+import numpy as np
+from scipy import stats
+
+from study.analysis.measurements import CONFIDENCE, variance
+
+
+def mean_interval(values: np.ndarray) -> tuple[float, float, float]:
+    """Mean of independent values with its t interval.
+
+    Parameters
+    ----------
+    values : (n,) float64 ndarray
+
+    Returns
+    -------
+    mean, low, high : float
+        NaN where there is nothing to compute them from: no value for the mean; fewer than two, or
+        only equal ones, for the interval.
+    """
+    if len(values) == 0:
+        return np.nan, np.nan, np.nan
+    mean, spread = float(values.mean()), variance(values)
+    if not spread > 0:
+        return mean, np.nan, np.nan
+    half = stats.t.isf((1 - CONFIDENCE) / 2, len(values) - 1) * np.sqrt(spread / len(values))
+    return mean, float(mean - half), float(mean + half)
+
+
+def at_least(bound: float, low: float, high: float) -> str:
+    """Whether a quantity with the interval [low, high] is at least `bound`: yes, no, undecided."""
+    if low >= bound:
+        return "yes"
+    return "no" if high < bound else "undecided"

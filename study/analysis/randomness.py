@@ -1,0 +1,131 @@
+"""Table 1: tests of whether the points are random and of their distribution."""
+
+from itertools import product
+
+import numpy as np
+import pandas as pd
+from scipy import stats
+
+from study.analysis.measurements import CONFIDENCE, SIGNIFICANCE, Measurements, Missing, Row
+from study.analysis.table import DISTRIBUTION, Column, Table
+
+TESTS = {"runs": "runs_p", "Kolmogorov-Smirnov": "ks_p"}
+COORDINATES = ("x", "y")
+_BINS = 20
+
+_RANDOMNESS = (
+    DISTRIBUTION,
+    Column("test", "Test"),
+    Column("coordinate", "Coordinate"),
+    Column("tests", "Tests", "", "int"),
+    Column("below", "p below 0.05", "tests", "int"),
+    Column("expected_below", "Expected by chance", "tests", "fixed1"),
+    Column("share_below", "Share below 0.05", "", "percent2"),
+    Column("share_low", "95 % from", "", "percent2"),
+    Column("share_high", "95 % to", "", "percent2"),
+    Column("rejected_holm", "Rejected after Holm", "tests", "int"),
+    Column("lowest_p", "Lowest p", "", "p"),
+    Column("uniform_d", "Distance from uniform", "", "fixed4"),
+    Column("uniform_p", "p of uniformity", "", "p"),
+    Column("verdict", "Random"),
+)
+
+_UNIFORMITY = (
+    DISTRIBUTION,
+    Column("test", "Test"),
+    Column("coordinate", "Coordinate"),
+    Column("p_from", "p from", "", "fixed2"),
+    Column("p_to", "p to", "", "fixed2"),
+    Column("count", "Tests", "tests", "int"),
+    Column("expected", "Expected", "tests", "fixed1"),
+)
+
+
+def point_sets(data: Measurements) -> pd.DataFrame:
+    """Keep a row a point set: all methods triangulate the same points, tested once."""
+    return data.results.drop_duplicates(["distribution", "n_points", "replicate"])
+
+
+def randomness(data: Measurements) -> tuple[Table, list[Missing]]:
+    """How many of all runs and Kolmogorov-Smirnov tests reject, and whether p is uniform."""
+    families, missing = _families(data)
+    if families:
+        families.append(("all", "all", "all", np.concatenate([p for *_, p in families])))
+    rows = [
+        {"distribution": distribution, "test": test, "coordinate": coordinate} | _judge(values)
+        for distribution, test, coordinate, values in families
+    ]
+    note = (
+        "Runs test about the median and Kolmogorov-Smirnov test against the true distribution, of "
+        "both coordinates of every point set. Random points give p below 0.05 in one test of "
+        "twenty: that some do is expected, and only a share whose (Clopper-Pearson) interval "
+        "leaves out 0.05 speaks against them. Holm's correction counts the tests of the row. "
+        "Uniformity is a Kolmogorov-Smirnov test of the p-values; those of the runs test are "
+        "discrete, coarsely so for small sets. x and y of the bivariate normal distribution are "
+        "correlated, and so are, weakly, their tests. Point sets count once, whatever "
+        "the number of methods."
+    )
+    title = "Randomness of the points (Table 1)"
+    return Table.from_rows("randomness", title, _RANDOMNESS, rows, note), missing
+
+
+def uniformity(data: Measurements) -> Table:
+    """Histogram of the p-values, for a plot of their uniformity."""
+    rows: list[Row] = []
+    edges = np.linspace(0, 1, _BINS + 1)
+    for distribution, test, coordinate, values in _families(data)[0]:
+        counts = np.histogram(values, edges)[0]
+        rows += [
+            {
+                "distribution": distribution,
+                "test": test,
+                "coordinate": coordinate,
+                "p_from": low,
+                "p_to": high,
+                "count": count,
+                "expected": len(values) / _BINS,
+            }
+            for low, high, count in zip(edges[:-1], edges[1:], counts, strict=True)
+        ]
+    title = "p-values of the randomness tests: uniform if the points are random"
+    return Table.from_rows("uniformity", title, _UNIFORMITY, rows)
+
+
+def _families(
+    data: Measurements,
+) -> tuple[list[tuple[str, str, str, np.ndarray]], list[Missing]]:
+    families, missing = [], []
+    sets = point_sets(data)
+    for distribution, (test, prefix), coordinate in product(
+        data.design.distributions, TESTS.items(), COORDINATES
+    ):
+        values = sets.loc[sets["distribution"] == distribution, f"{prefix}_{coordinate}"]
+        values = values.dropna().to_numpy()
+        if len(values):
+            families.append((distribution, test, coordinate, values))
+        else:
+            what = f"{test} test of {coordinate}"
+            missing.append(Missing("", distribution, what, "no point set has been tested"))
+    return families, missing
+
+
+def _judge(values: np.ndarray) -> Row:
+    from statsmodels.stats.multitest import multipletests
+    from statsmodels.stats.proportion import proportion_confint
+
+    below, tests = int((values < SIGNIFICANCE).sum()), len(values)
+    low, high = proportion_confint(below, tests, alpha=1 - CONFIDENCE, method="beta")
+    uniform = stats.kstest(values, "uniform")
+    return {
+        "tests": tests,
+        "below": below,
+        "expected_below": tests * SIGNIFICANCE,
+        "share_below": below / tests,
+        "share_low": low,
+        "share_high": high,
+        "rejected_holm": int(multipletests(values, SIGNIFICANCE, method="holm")[0].sum()),
+        "lowest_p": values.min(),
+        "uniform_d": uniform.statistic,
+        "uniform_p": uniform.pvalue,
+        "verdict": "not rejected" if low <= SIGNIFICANCE <= high else "rejected",
+    }
