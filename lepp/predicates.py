@@ -1,0 +1,188 @@
+"""Exact signs of geometric determinants.
+
+Each predicate first evaluates its determinant in floating point and trusts the sign when it
+exceeds a bound on the rounding error (J. R. Shewchuk, "Adaptive precision floating-point arithmetic
+and fast robust geometric predicates", 1997, section 4.2). Where it does not, the determinant of the
+coordinates as given is summed exactly in fixed point, over the whole range of doubles: neither
+overflow nor underflow can falsify a sign.
+"""
+
+import math
+
+import numpy as np
+
+from lepp.jit import kernel
+
+EPSILON = 2.0**-53
+ORIENTATION_BOUND = (3.0 + 16.0 * EPSILON) * EPSILON
+# Products that underflow lose up to 2**-1075 each, which the relative bounds do not see.
+UNDERFLOW = 2.0**-960
+# Inside these magnitudes (or at zero) the error-free product below neither over- nor underflows.
+_PRODUCT_MIN = 2.0**-450
+_PRODUCT_MAX = 2.0**450
+_SPLITTER = 2.0**27 + 1.0
+
+_LIMB_BITS = 32
+_LIMB_MASK = 0xFFFFFFFF
+# The exponent of the last bit of a double's 53-bit mantissa, as math.frexp gives it, is at least:
+_LOWEST_EXPONENT = -1073 - 53
+
+
+@kernel
+def add_product(accumulator, sign, factors):
+    """Add ``sign * prod(factors)`` to a fixed-point number, exactly.
+
+    Parameters
+    ----------
+    accumulator : (k,) int64 ndarray
+        Limbs of 32 bits, lowest first, carries not propagated; from `new_accumulator`.
+    sign : int
+        1 or -1.
+    factors : tuple of float
+        As many as the accumulator was made for.
+    """
+    limbs = np.zeros(2 * len(factors) + 1, np.uint64)
+    limbs[0] = 1
+    n_limbs = 1
+    exponent = 0
+    for factor in factors:
+        if factor == 0.0:
+            return
+        mantissa, factor_exponent = math.frexp(factor)
+        if mantissa < 0.0:
+            mantissa = -mantissa
+            sign = -sign
+        bits = np.uint64(mantissa * 9007199254740992.0)  # 2**53
+        exponent += factor_exponent - 53 - _LOWEST_EXPONENT
+        low = bits & np.uint64(_LIMB_MASK)
+        high = bits >> np.uint64(_LIMB_BITS)
+        carry = np.uint64(0)
+        previous = np.uint64(0)
+        for i in range(n_limbs + 2):
+            limb = limbs[i] if i < n_limbs else np.uint64(0)
+            product = limb * low + carry  # below 2**64: (2**32 - 1)**2 + 2**33
+            cross = previous * high  # below 2**53
+            total = (product & np.uint64(_LIMB_MASK)) + (cross & np.uint64(_LIMB_MASK))
+            carry = (
+                (product >> np.uint64(_LIMB_BITS))
+                + (cross >> np.uint64(_LIMB_BITS))
+                + (total >> np.uint64(_LIMB_BITS))
+            )
+            limbs[i] = total & np.uint64(_LIMB_MASK)
+            previous = limb
+        n_limbs += 2
+    first = exponent // _LIMB_BITS
+    shift = np.uint64(exponent % _LIMB_BITS)
+    for i in range(n_limbs):
+        shifted = limbs[i] << shift
+        accumulator[first + i] += sign * np.int64(shifted & np.uint64(_LIMB_MASK))
+        accumulator[first + i + 1] += sign * np.int64(shifted >> np.uint64(_LIMB_BITS))
+
+
+@kernel
+def new_accumulator(degree):
+    """Return a fixed-point zero wide enough for products of `degree` doubles."""
+    return np.zeros(degree * (2200 // _LIMB_BITS + 1) + 4, np.int64)
+
+
+@kernel
+def accumulator_sign(accumulator):
+    """Return the sign (-1, 0 or 1) of a fixed-point number; its limbs are overwritten."""
+    carry = np.int64(0)
+    nonzero = False
+    for i in range(len(accumulator)):
+        limb = accumulator[i] + carry
+        carry = limb >> _LIMB_BITS
+        if limb & _LIMB_MASK:
+            nonzero = True
+    if carry < 0:
+        return -1
+    return 1 if nonzero or carry > 0 else 0
+
+
+@kernel
+def exact_orientation(ax, ay, bx, by, cx, cy):
+    """Return the sign of `orientation` by fixed-point summation of its six products."""
+    accumulator = new_accumulator(2)
+    add_product(accumulator, 1, (ax, by))
+    add_product(accumulator, -1, (ax, cy))
+    add_product(accumulator, -1, (ay, bx))
+    add_product(accumulator, 1, (ay, cx))
+    add_product(accumulator, 1, (bx, cy))
+    add_product(accumulator, -1, (by, cx))
+    return accumulator_sign(accumulator)
+
+
+@kernel
+def _product_error(a, b, product):
+    """Return ``a * b - product`` exactly (Dekker's two-product)."""
+    big = _SPLITTER * a
+    a_high = big - (big - a)
+    a_low = a - a_high
+    big = _SPLITTER * b
+    b_high = big - (big - b)
+    b_low = b - b_high
+    return a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low)
+
+
+@kernel
+def _difference_is_exact(a, b, difference):
+    """Tell whether `difference` is a - b without rounding, at a magnitude safe for products."""
+    b_virtual = a - difference
+    a_virtual = difference + b_virtual
+    rounding = (a - a_virtual) + (b_virtual - b)
+    magnitude = abs(difference)
+    return rounding == 0.0 and (difference == 0.0 or _PRODUCT_MIN < magnitude < _PRODUCT_MAX)
+
+
+@kernel
+def uncertain_orientation(ax, ay, bx, by, cx, cy):
+    """Return the sign of `orientation` where the floating filter has failed.
+
+    On lattices the differences are exact and two exact products settle it; fixed point does the
+    rest.
+    """
+    acx, acy, bcx, bcy = ax - cx, ay - cy, bx - cx, by - cy
+    if (
+        _difference_is_exact(ax, cx, acx)
+        and _difference_is_exact(ay, cy, acy)
+        and _difference_is_exact(bx, cx, bcx)
+        and _difference_is_exact(by, cy, bcy)
+    ):
+        left, right = acx * bcy, acy * bcx
+        if left == right:  # equal after rounding: the rounding errors decide
+            left = _product_error(acx, bcy, left)
+            right = _product_error(acy, bcx, right)
+        return int(left > right) - int(left < right)  # rounding keeps the order of products
+    return exact_orientation(ax, ay, bx, by, cx, cy)
+
+
+@kernel
+def orientation(ax, ay, bx, by, cx, cy):
+    """Tell on which side of the line from a to b the point c lies.
+
+    Returns
+    -------
+    int
+        1 if a, b, c turn left (counter-clockwise), -1 if they turn right, 0 if they are collinear.
+        Exact for all finite doubles.
+    """
+    left = (ax - cx) * (by - cy)
+    right = (ay - cy) * (bx - cx)
+    determinant = left - right
+    bound = ORIENTATION_BOUND * (abs(left) + abs(right)) + UNDERFLOW
+    if abs(determinant) > bound:
+        return 1 if determinant > 0.0 else -1
+    return uncertain_orientation(ax, ay, bx, by, cx, cy)
+
+
+@kernel
+def orientations(points, triangles):
+    """Return the `orientation` of each triangle of an (m, 3) array, as (m,) int8."""
+    signs = np.empty(len(triangles), np.int8)
+    for t in range(len(triangles)):
+        a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+        signs[t] = orientation(
+            points[a, 0], points[a, 1], points[b, 0], points[b, 1], points[c, 0], points[c, 1]
+        )
+    return signs
