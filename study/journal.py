@@ -30,14 +30,16 @@ class Journal:
     """
 
     def __init__(self, path: Path) -> None:
-        self._file = path.open("ab")
+        # Unbuffered: after an error, nothing may be left over for a later write.
+        self._file = path.open("ab", buffering=0)
         self._file.truncate(_whole_lines(path.read_bytes()))
         self._synced = monotonic()
 
     def append(self, outcomes: Iterable[Outcome]) -> None:
         """Write outcomes; they survive the death of this process when this returns."""
-        self._file.write("".join(_line(outcome) for outcome in outcomes).encode())
-        self._file.flush()
+        lines = memoryview("".join(_line(outcome) for outcome in outcomes).encode())
+        while lines:
+            lines = lines[self._file.write(lines) :]
         if monotonic() - self._synced >= SYNC_SECONDS:
             os.fsync(self._file.fileno())
             self._synced = monotonic()

@@ -126,6 +126,8 @@ class Store:
         self.directory = directory
         self.design = design
         self._outcomes: dict[Task, Outcome] = {}
+        self._environments = [_environment()]
+        #: Open while there are tasks to run.
         self._journal: Journal | None = None
         with _writing(directory):
             if directory.exists():
@@ -147,14 +149,15 @@ class Store:
 
     def close(self) -> None:
         """Let go of the directory; what was added stays in it."""
-        if self._journal is not None:
-            self._journal.close()
-            self._journal = None
-        self._lock.release()
+        try:
+            if self._journal is not None:
+                with _writing(self.directory):
+                    self._journal.close()
+                self._journal = None
+        finally:
+            self._lock.release()
 
     def _open(self) -> None:
-        tasks = tasks_of(self.design)
-        environments = [_environment()]
         manifest: dict[str, Any] = {"complete": False}
         if (self.directory / MANIFEST).exists():
             manifest, found = _read_manifest(self.directory)
@@ -163,27 +166,27 @@ class Store:
                     f"{self.directory} holds the results of another design ({difference}): give "
                     "another directory."
                 )
-            environments += [e for e in manifest["environments"] if e != environments[0]]
+            now = self._environments[0]
+            self._environments += [e for e in manifest["environments"] if e != now]
         if manifest["complete"]:
             _check_files(self.directory, manifest)
             if manifest["failed"] == 0:
                 (self.directory / JOURNAL).unlink(missing_ok=True)
-                self.unfinished: list[Task] = []
                 return
-        self._environments = environments
         self._outcomes = _read_outcomes(self.directory, self.design)
-        self.unfinished = [
-            task
-            for task in tasks
-            if task not in self._outcomes or self._outcomes[task].error is not None
-        ]
         self._write_manifest(complete=False)
         self._journal = Journal(self.directory / JOURNAL)
 
     @property
-    def n_finished(self) -> int:
-        """Number of tasks that need not be run again."""
-        return self.design.n_tasks - len(self.unfinished)
+    def unfinished(self) -> list[Task]:
+        """The tasks that have no outcome yet or have failed, in the order of the results."""
+        if self._journal is None:
+            return []
+        return [
+            task
+            for task in tasks_of(self.design)
+            if task not in self._outcomes or self._outcomes[task].error is not None
+        ]
 
     def add(self, outcomes: Iterable[Outcome]) -> list[Outcome]:
         """Keep outcomes; they are in the journal when this returns.
