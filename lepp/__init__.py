@@ -1,1 +1,33 @@
-"""The mathematics: triangulations and their longest-edge propagation paths."""
+"""The mathematics: triangulations and their longest-edge propagation paths (LEPP)."""
+
+from lepp import theory
+from lepp.counts import LeppCounts
+from lepp.errors import InputError
+from lepp.paths import (
+    TYPE_A,
+    TYPE_B,
+    TYPE_C,
+    TYPE_NONE,
+    LeppPaths,
+    lepp_paths,
+    lepp_sizes,
+)
+from lepp.triangulation import METHODS, Triangulation, triangulate
+from lepp.warm import compile_kernels
+
+__all__ = [
+    "METHODS",
+    "TYPE_A",
+    "TYPE_B",
+    "TYPE_C",
+    "TYPE_NONE",
+    "InputError",
+    "LeppCounts",
+    "LeppPaths",
+    "Triangulation",
+    "compile_kernels",
+    "lepp_paths",
+    "lepp_sizes",
+    "theory",
+    "triangulate",
+]

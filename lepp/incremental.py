@@ -146,7 +146,11 @@ def _subdivide(
     for root in range(len(starts) - 1):
         longest = max(longest, starts[root + 1] - starts[root])
     # A stack of lists of points, the last job's on top. A point is on at most two lists at a time.
-    x, y, ident = np.empty(2 * longest + 8), np.empty(2 * longest + 8), np.empty(2 * longest + 8, np.int32)
+    x, y, ident = (
+        np.empty(2 * longest + 8),
+        np.empty(2 * longest + 8),
+        np.empty(2 * longest + 8, np.int32),
+    )
     x2, y2, ident2 = np.empty(longest + 1), np.empty(longest + 1), np.empty(longest + 1, np.int32)
     x3, y3, ident3 = np.empty(longest + 1), np.empty(longest + 1), np.empty(longest + 1, np.int32)
     # The parts of a triangle: vertices, half-edges, bounds of the list; jobs are those not final.

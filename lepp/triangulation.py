@@ -124,7 +124,9 @@ def check_points(points: np.ndarray, dimensions: Sequence[int] = (2,)) -> np.nda
     finite = np.isfinite(array).all(axis=1)
     if not finite.all():
         bad = np.flatnonzero(~finite)
-        raise InputError(f"Points {_listed(bad)} have coordinates that are not finite: remove them.")
+        raise InputError(
+            f"Points {_listed(bad)} have coordinates that are not finite: remove them."
+        )
     return array
 
 
