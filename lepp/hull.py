@@ -341,6 +341,7 @@ def _split_hull_edge(points, hull, q, split, n_edges, n_ring):
             if i != q:
                 hull.repeats[i] = q
                 hull.place[i] = _LEFT_OUT
+                hull.on_edge[i] = 0
         else:
             towards_a = (points[i, axis] < points[q, axis]) == (points[a, axis] < points[b, axis])
             part = incoming if towards_a else outgoing
