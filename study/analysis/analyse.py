@@ -1,16 +1,53 @@
 """All tables of a study from its results."""
 
+from collections.abc import Iterable
 from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from study.analysis import assumptions, bounds, games_howell, groups, randomness, variance
+from study.analysis import (
+    assumptions,
+    bounds,
+    comparison,
+    games_howell,
+    groups,
+    paths,
+    randomness,
+    regression,
+    reproduction,
+    statements,
+    theory,
+    variance,
+    worst_case,
+)
+from study.analysis import (
+    regions as terminal_regions,
+)
 from study.analysis.measurements import Measurements, Missing
 from study.analysis.table import DISTRIBUTION, METHOD, Column, Table
 
 if TYPE_CHECKING:
     from study.design import Design
+
+_BUILDERS = (
+    randomness.randomness,
+    assumptions.levene,
+    assumptions.shapiro,
+    assumptions.qq,
+    variance.anova,
+    games_howell.pairs,
+    bounds.bounds,
+    theory.neighbor_types,
+    theory.theorem_1,
+    theory.theorem_2,
+    paths.termination,
+    paths.law,
+    terminal_regions.regions,
+    terminal_regions.region_sizes,
+    comparison.methods,
+    comparison.growth,
+)
 
 _MISSING = (METHOD, DISTRIBUTION, Column("what", "Not computed"), Column("why", "Why"))
 
@@ -38,25 +75,31 @@ def analyse(
         table ``missing`` says what cannot, and why. The same results give the same tables.
     """
     data = Measurements.of(results, histograms, regions, design)
-    tables: list[Table] = []
     missing: list[Missing] = []
+    tables: dict[str, Table] = {}
+
+    def add(*made: Table, lacking: Iterable[Missing] = ()) -> None:
+        tables.update({table.name: table for table in made})
+        missing.extend(lacking)
 
     by_group = groups.groups(data)
     overview = groups.overview(by_group, data)
-    tables += [overview, by_group, randomness.uniformity(data)]
-    missing += groups.missing_tasks(overview, data)
-    for build in (
-        randomness.randomness,
-        assumptions.levene,
-        assumptions.shapiro,
-        assumptions.qq,
-        variance.anova,
-        games_howell.pairs,
-        bounds.bounds,
-    ):
+    add(overview, by_group, lacking=groups.missing_tasks(overview, data))
+    for build in _BUILDERS:
         table, lacking = build(data)
-        tables.append(table)
-        missing += lacking
+        add(table, lacking=lacking)
+    add(randomness.uniformity(data), worst_case.worst_case())
+
+    fits, lacking = regression.fit_all(data)
+    add(lacking=lacking)
+    table, lacking = regression.regressions(fits)
+    add(table, regression.coefficients(fits), regression.projections(fits), lacking=lacking)
+    add(regression.limits(fits), regression.curves(fits))
+
+    scoreboard, lacking = reproduction.reproduction(data, tables)
+    add(scoreboard, reproduction.summary(scoreboard), lacking=lacking)
+    add(reproduction.overall(scoreboard), statements.statements(data, tables))
+
     rows = [asdict(entry) for entry in missing]
-    tables.append(Table.from_rows("missing", "What could not be computed", _MISSING, rows))
-    return {table.name: table for table in tables}
+    add(Table.from_rows("missing", "What could not be computed", _MISSING, rows))
+    return tables

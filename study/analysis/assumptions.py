@@ -13,6 +13,7 @@ from study.analysis.measurements import (
     Row,
     for_each_population,
 )
+from study.analysis.multiple_testing import holm
 from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Table
 from study.analysis.tails import log10_f_tail
 
@@ -84,9 +85,8 @@ def shapiro(data: Measurements) -> tuple[Table, list[Missing]]:
     """Shapiro-Wilk test of each group, with Holm's correction over the sizes."""
 
     def rows(method: str, distribution: str) -> Iterator[Row | NotEnough]:
-        from statsmodels.stats.multitest import multipletests
-
         tested: list[Row] = []
+        p_values = []
         groups = data.groups(method, distribution)
         for size, values in zip(groups.n_points.tolist(), groups.values, strict=True):
             if not _SHAPIRO_LEAST <= len(values) <= _SHAPIRO_MOST or not np.ptp(values):
@@ -97,11 +97,10 @@ def shapiro(data: Measurements) -> tuple[Table, list[Missing]]:
                 continue
             w, p = stats.shapiro(values)
             tested.append({"n_points": size, "w": w, "p": p})
-        if tested:
-            holm = multipletests([row["p"] for row in tested], SIGNIFICANCE, method="holm")
-            for row, rejected, p_holm in zip(tested, holm[0], holm[1], strict=True):
-                verdict = "rejected" if rejected else "not rejected"
-                yield row | {"p_holm": p_holm, "normal": verdict}
+            p_values.append(p)
+        for row, p_holm in zip(tested, holm(np.array(p_values)), strict=True):
+            verdict = "rejected" if p_holm < SIGNIFICANCE else "not rejected"
+            yield row | {"p_holm": p_holm, "normal": verdict}
 
     found, missing = for_each_population(data, "Shapiro-Wilk test", rows)
     note = (

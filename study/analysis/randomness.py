@@ -7,6 +7,7 @@ import pandas as pd
 from scipy import stats
 
 from study.analysis.measurements import CONFIDENCE, SIGNIFICANCE, Measurements, Missing, Row
+from study.analysis.multiple_testing import holm
 from study.analysis.table import DISTRIBUTION, Column, Table
 
 TESTS = {"runs": "runs_p", "Kolmogorov-Smirnov": "ks_p"}
@@ -110,7 +111,6 @@ def _families(
 
 
 def _judge(values: np.ndarray) -> Row:
-    from statsmodels.stats.multitest import multipletests
     from statsmodels.stats.proportion import proportion_confint
 
     below, tests = int((values < SIGNIFICANCE).sum()), len(values)
@@ -123,7 +123,7 @@ def _judge(values: np.ndarray) -> Row:
         "share_below": below / tests,
         "share_low": low,
         "share_high": high,
-        "rejected_holm": int(multipletests(values, SIGNIFICANCE, method="holm")[0].sum()),
+        "rejected_holm": int((holm(values) < SIGNIFICANCE).sum()),
         "lowest_p": values.min(),
         "uniform_d": uniform.statistic,
         "uniform_p": uniform.pvalue,

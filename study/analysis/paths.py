@@ -1,0 +1,161 @@
+"""How paths end: the pooled histogram of LEPP sizes, step by step and against the geometric law."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import pandas as pd
+from scipy import stats
+
+from study.analysis.measurements import (
+    CONFIDENCE,
+    Measurements,
+    Missing,
+    NotEnough,
+    Row,
+    for_each_population,
+    select,
+)
+from study.analysis.table import DISTRIBUTION, METHOD, Column, Table
+
+_SIZE = Column("lepp_size", "LEPP size", "triangles", "int")
+
+_TERMINATION = (
+    METHOD,
+    DISTRIBUTION,
+    _SIZE,
+    Column("reached", "Paths that reach it", "triangles", "int"),
+    Column("ended", "Paths that end there", "triangles", "int"),
+    Column("rate", "Termination rate", "", "fixed4"),
+    Column("standard_error", "Standard error", "", "g2"),
+    Column("low", "95 % from", "", "fixed4"),
+    Column("high", "95 % to", "", "fixed4"),
+    Column("p_type_c", "Share p of type C", "", "fixed4"),
+)
+
+_LAW = (
+    METHOD,
+    DISTRIBUTION,
+    _SIZE,
+    Column("count", "Triangles", "triangles", "int"),
+    Column("share", "Share", "", "percent3"),
+    Column("geometric_share", "Geometric law", "", "percent3"),
+    Column("ratio", "Share / law", "", "g3"),
+)
+
+
+def counts_by_task(frame: pd.DataFrame, size: str) -> np.ndarray:
+    """Lay out counts in a matrix.
+
+    Parameters
+    ----------
+    frame : pandas.DataFrame
+        With n_points, replicate, the column `size` and count, of one method and distribution.
+
+    Returns
+    -------
+    (tasks, largest size + 1) int64 ndarray
+        Column k counts size k.
+    """
+    tasks = frame.groupby(["n_points", "replicate"], sort=True).ngroup().to_numpy()
+    sizes = frame[size].to_numpy(dtype=np.int64)
+    shape = (tasks.max(initial=-1) + 1, sizes.max(initial=-1) + 1)
+    counts = np.zeros(shape, dtype=np.int64)
+    np.add.at(counts, (tasks, sizes), frame["count"].to_numpy(dtype=np.int64))
+    return counts
+
+
+def pooled_p(triangulations: pd.DataFrame) -> float:
+    """Share of type C neighbours in all triangulations together; NaN without any."""
+    inside = int(triangulations["n_interior_longest"].sum())
+    return int(triangulations["n_type_c"].sum()) / inside if inside else np.nan
+
+
+def termination(data: Measurements) -> tuple[Table, list[Missing]]:
+    """At each size, the share of the paths that end there among those that reach it."""
+
+    def rows(method: str, distribution: str) -> Iterator[Row]:
+        counts = _lepp_counts(data, method, distribution)
+        p = pooled_p(data.triangulations(method, distribution))
+        reached = counts[:, ::-1].cumsum(axis=1)[:, ::-1]
+        for size in range(1, counts.shape[1]):
+            rate, error, low, high = ratio_interval(counts[:, size], reached[:, size])
+            yield {
+                "lepp_size": size,
+                "reached": int(reached[:, size].sum()),
+                "ended": int(counts[:, size].sum()),
+                "rate": rate,
+                "standard_error": error,
+                "low": low,
+                "high": high,
+                "p_type_c": p,
+            }
+
+    found, missing = for_each_population(data, "termination rates", rows)
+    note = (
+        "All triangulations of a method and distribution together. Size 1 ends on the boundary. "
+        "Theorem 1 takes the rate from size 2 on to be constant and equal to p. Paths of one "
+        "triangulation share triangles and are not independent: the standard error is that of a "
+        "ratio of sums over triangulations. Rates that only few paths reach are rough."
+    )
+    title = "Termination rate at each size of the path"
+    return Table.from_rows("termination", title, _TERMINATION, found, note), missing
+
+
+def ratio_interval(ended: np.ndarray, reached: np.ndarray) -> tuple[float, float, float, float]:
+    """Ratio of two sums over independent triangulations, with its linearised standard error.
+
+    Parameters
+    ----------
+    ended, reached : (r,) int64 ndarray
+        A pair of counts a triangulation.
+
+    Returns
+    -------
+    rate, standard_error, low, high : float
+        Error and t interval are NaN for fewer than two triangulations.
+
+    Notes
+    -----
+    Cochran (1977), Sampling Techniques, section 6.3.
+    """
+    r, total = len(reached), reached.sum()
+    rate = ended.sum() / total
+    if r < 2:
+        return float(rate), np.nan, np.nan, np.nan
+    error = np.sqrt(r / (r - 1) * ((ended - rate * reached) ** 2).sum()) / total
+    half = stats.t.isf((1 - CONFIDENCE) / 2, r - 1) * error
+    return float(rate), float(error), float(max(rate - half, 0)), float(min(rate + half, 1))
+
+
+def law(data: Measurements) -> tuple[Table, list[Missing]]:
+    """Histogram of all LEPP sizes against the geometric law of the measured p."""
+
+    def rows(method: str, distribution: str) -> Iterator[Row]:
+        counts = _lepp_counts(data, method, distribution).sum(axis=0)
+        p = pooled_p(data.triangulations(method, distribution))
+        for size in range(1, len(counts)):
+            share = counts[size] / counts.sum()
+            predicted = stats.geom.pmf(size - 1, p) if size > 1 and p > 0 else 0.0
+            yield {
+                "lepp_size": size,
+                "count": int(counts[size]),
+                "share": share,
+                "geometric_share": predicted,
+                "ratio": share / predicted if predicted > 0 else np.nan,
+            }
+
+    found, missing = for_each_population(data, "histogram of LEPP sizes", rows)
+    note = (
+        "All triangulations of a method and distribution together. The law of Theorem 1: "
+        "P(size = k) = (1 - p)^(k - 2) p for k of 2 and more, p the share of type C neighbours; it "
+        "has no triangles of size 1, whose longest edge is on the boundary."
+    )
+    title = "LEPP sizes against the geometric law"
+    return Table.from_rows("law", title, _LAW, found, note), missing
+
+
+def _lepp_counts(data: Measurements, method: str, distribution: str) -> np.ndarray:
+    frame = select(data.histograms, method, distribution)
+    if frame.empty:
+        raise NotEnough("no triangulation has succeeded")
+    return counts_by_task(frame, "lepp_size")

@@ -1,0 +1,35 @@
+"""Figure 2 and equation 1: the strip whose first path covers all of it."""
+
+import lepp
+from lepp import theory
+from study.analysis.table import Column, Table
+
+_SIZES = (1, 2, 3, 10, 100, 1000, 10_000, 100_000, 1_000_000)
+
+_WORST_CASE = (
+    Column("n_triangles", "Triangles", "triangles", "int"),
+    Column("mean_lepp", "Mean LEPP", "triangles", "fixed1"),
+    Column("equation_1", "(n + 1) / 2", "triangles", "fixed1"),
+    Column("max_lepp", "Largest LEPP", "triangles", "int"),
+    Column("equal", "Equal"),
+)
+
+
+def worst_case() -> Table:
+    """Measure the worst-case strip, up to a million triangles, by the kernels of the study."""
+    rows = []
+    for n in _SIZES:
+        counts = lepp.LeppCounts.from_sizes(lepp.lepp_sizes(theory.worst_case_strip(n)))
+        expected = (n + 1) / 2
+        exact = counts.mean == expected and counts.max == n
+        rows.append(
+            {
+                "n_triangles": n,
+                "mean_lepp": counts.mean,
+                "equation_1": expected,
+                "max_lepp": counts.max,
+                "equal": "yes" if exact else "no",
+            }
+        )
+    note = "The mean grows with n here: no bound holds for all triangulations."
+    return Table.from_rows("worst_case", "The worst case (equation 1)", _WORST_CASE, rows, note)
