@@ -1,6 +1,6 @@
 """The methods of triangulation compared on the same points."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import combinations
 
 import numpy as np
@@ -14,7 +14,6 @@ from study.analysis.measurements import (
     NotEnough,
     Row,
     groups_of,
-    select,
     variance,
 )
 from study.analysis.table import DISTRIBUTION, N_POINTS, Column, Table
@@ -53,7 +52,7 @@ _GROWTH = (
     Column("high", "95 % to", "triangles", "g3"),
 )
 
-_QUANTITIES = {
+_QUANTITIES: dict[str, Callable[[pd.DataFrame], pd.Series]] = {
     "mean LEPP": lambda frame: frame["mean_lepp"],
     "SD inside a triangulation": lambda frame: frame["sd_lepp"],
     "largest LEPP": lambda frame: frame["max_lepp"],
@@ -93,8 +92,9 @@ def _paired(
         for first, second in combinations(data.design.methods, 2):
             frames = []
             for method in (first, second):
-                frame = select(data.results, method, distribution)
-                frame = frame.set_index(["n_points", "replicate"])
+                frame = data.triangulations(method, distribution).set_index(
+                    ["n_points", "replicate"]
+                )
                 columns = {(name, method): of(frame) for name, of in _QUANTITIES.items()}
                 frames.append(pd.DataFrame(columns))
             both = frames[0].join(frames[1], how="inner")

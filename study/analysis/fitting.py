@@ -6,13 +6,17 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import optimize, stats
 
-from study.analysis.measurements import CONFIDENCE, Groups, NotEnough
+from study.analysis.intervals import t_quantile
+from study.analysis.measurements import Groups, NotEnough
 from study.analysis.models import ASYMPTOTE, SATURATING, LinearModel, SaturatingModel, logit
 from study.analysis.tails import log10_f_tail
 
 #: Exponents b of the saturating model that are looked at. At the lower end c - a x^(-b) is a
 #: logarithm, at the upper a constant beyond the first group.
 _LEAST_B, _MOST_B = 1e-3, 10.0
+
+#: Fits z at x with weights, and predicts y at one more x.
+Predictor = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], float]
 
 
 @dataclass(frozen=True)
@@ -91,12 +95,8 @@ class Fit:
     @property
     def intervals(self) -> tuple[np.ndarray, np.ndarray]:
         """Lower and upper ends of the coefficients' t intervals, (k,) float64 each."""
-        half = self._quantile * self.standard_errors
+        half = t_quantile(self.df_residual) * self.standard_errors
         return self.coefficients - half, self.coefficients + half
-
-    @property
-    def _quantile(self) -> float:
-        return float(stats.t.isf((1 - CONFIDENCE) / 2, self.df_residual))
 
     def predict(self, x: np.ndarray) -> np.ndarray:
         """Mean LEPP size at x thousand points."""
@@ -115,7 +115,9 @@ class Fit:
         else:
             slopes, inverse = self.model.basis(x), self.model.inverse
             center = slopes @ self.coefficients
-        half = self._quantile * np.sqrt(np.einsum("ij,jk,ik->i", slopes, self.covariance, slopes))
+        half = t_quantile(self.df_residual) * np.sqrt(
+            np.einsum("ij,jk,ik->i", slopes, self.covariance, slopes)
+        )
         low, high = center - half, center + half
         return (inverse(low), inverse(high)) if inverse else (low, high)
 
@@ -219,12 +221,12 @@ def leave_one_group_out(model: LinearModel | SaturatingModel, seen: Observations
     x, y, weights = _grouped(seen, seen.y)
     if len(x) <= len(model.terms):
         raise NotEnough(f"leaving a size out needs {len(model.terms) + 1} sizes, not {len(x)}")
-    predict = _predict_saturating
+    predict: Predictor
     if isinstance(model, LinearModel):
         predict = _linear_predictor(model)
         x, z, weights = _grouped(seen, _transformed(model, seen.y))
     else:
-        z = y
+        predict, z = _predict_saturating, y
     errors = []
     for left_out in range(len(x)):
         others = np.arange(len(x)) != left_out
@@ -233,9 +235,7 @@ def leave_one_group_out(model: LinearModel | SaturatingModel, seen: Observations
     return float(np.sqrt(np.mean(np.square(errors))))
 
 
-def _linear_predictor(
-    model: LinearModel,
-) -> Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], float]:
+def _linear_predictor(model: LinearModel) -> Predictor:
     def predict(x: np.ndarray, z: np.ndarray, w: np.ndarray, at: np.ndarray) -> float:
         found = _weighted_least_squares(model.basis(x), z, w)
         return float(model.inverse(model.basis(at) @ found)[0])

@@ -1,9 +1,14 @@
 """Intervals of means, and what an interval says of a bound."""
 
 import numpy as np
-from scipy import stats
+from scipy import special
 
 from study.analysis.measurements import CONFIDENCE, variance
+
+
+def t_quantile(df: float) -> float:
+    """Count the standard errors to each side of an estimate with df degrees of freedom."""
+    return float(-special.stdtrit(df, (1 - CONFIDENCE) / 2))
 
 
 def mean_interval(values: np.ndarray) -> tuple[float, float, float]:
@@ -24,7 +29,7 @@ def mean_interval(values: np.ndarray) -> tuple[float, float, float]:
     mean, spread = float(values.mean()), variance(values)
     if not spread > 0:
         return mean, np.nan, np.nan
-    half = stats.t.isf((1 - CONFIDENCE) / 2, len(values) - 1) * np.sqrt(spread / len(values))
+    half = t_quantile(len(values) - 1) * np.sqrt(spread / len(values))
     return mean, float(mean - half), float(mean + half)
 
 

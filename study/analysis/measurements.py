@@ -146,7 +146,12 @@ class Measurements:
 
     def triangulations(self, method: str, distribution: str) -> pd.DataFrame:
         """Rows of `results` of one method and distribution."""
-        return select(self.results, method, distribution)
+        found = self._by_population.get((method, distribution))
+        return self.results.iloc[:0] if found is None else found
+
+    @cached_property
+    def _by_population(self) -> dict[tuple[str, str], pd.DataFrame]:
+        return dict(list(self.results.groupby(["method", "distribution"], sort=False)))
 
     def groups(self, method: str, distribution: str) -> Groups:
         """Mean LEPP sizes of one method and distribution."""

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import special
 
 Function = Callable[[np.ndarray], np.ndarray]
 
@@ -27,7 +28,7 @@ def logit(y: np.ndarray) -> np.ndarray:
 
 def logistic(z: np.ndarray) -> np.ndarray:
     """4 / (1 + exp(-z)), the inverse of `logit`."""
-    return ASYMPTOTE / (1 + np.exp(-z))
+    return ASYMPTOTE * special.expit(z)
 
 
 @dataclass(frozen=True)

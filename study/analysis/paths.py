@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 from scipy import stats
 
+from study.analysis.intervals import t_quantile
 from study.analysis.measurements import (
-    CONFIDENCE,
     Measurements,
     Missing,
     NotEnough,
@@ -123,7 +123,7 @@ def ratio_interval(ended: np.ndarray, reached: np.ndarray) -> tuple[float, float
     if r < 2:
         return float(rate), np.nan, np.nan, np.nan
     error = np.sqrt(r / (r - 1) * ((ended - rate * reached) ** 2).sum()) / total
-    half = stats.t.isf((1 - CONFIDENCE) / 2, r - 1) * error
+    half = t_quantile(r - 1) * error
     return float(rate), float(error), float(max(rate - half, 0)), float(min(rate + half, 1))
 
 

@@ -9,7 +9,7 @@ from scipy import stats
 
 from study.analysis import judging, published
 from study.analysis.judging import NOT_COMPARABLE, NOT_RUN, Judgement
-from study.analysis.measurements import SIGNIFICANCE, Measurements, Missing, Row, select
+from study.analysis.measurements import SIGNIFICANCE, Measurements, Missing, Row
 from study.analysis.published import REPETITIONS, SHOWN, Number
 from study.analysis.randomness import TESTS, point_sets
 from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Table
@@ -174,7 +174,7 @@ class _Ours:
     @property
     def has_published_design(self) -> bool:
         """Whether all published groups of the uniform distribution are complete, and no others."""
-        rows = select(self.data.results, self.method, SHOWN)["n_points"].value_counts()
+        rows = self.data.triangulations(self.method, SHOWN)["n_points"].value_counts()
         return rows.to_dict() == dict.fromkeys(published.sizes(), REPETITIONS)
 
 
@@ -233,7 +233,7 @@ def _table_4(ours: _Ours) -> Judged:
         if row is None or not row["sd_between"] > 0:
             yield from ((number, _NOT_RUN) for number in (triangles, largest, mean, sd))
             continue
-        group = select(ours.data.results, ours.method, SHOWN)
+        group = ours.data.triangulations(ours.method, SHOWN)
         group = group[group["n_points"] == mean.n_points]
         count = len(group)
         # The paper has no spread for these two: ours stands for both.

@@ -14,7 +14,7 @@ _RANGES = np.linspace(0.0, _WIDEST, 601)
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(300)
 #: exp(-40) is below the resolution of the integral.
 _DECAY = 40.0
-_STEPS = 160
+_STEPS = 240
 
 
 def studentized_range_tail(q: np.ndarray, k: int, df: np.ndarray) -> np.ndarray:

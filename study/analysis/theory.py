@@ -80,7 +80,7 @@ def _sizes(
     if triangulations.empty:
         raise NotEnough("no triangulation has succeeded")
     for size, group in triangulations.groupby("n_points", sort=True):
-        yield int(size), group  # type: ignore[call-overload]  # a group's label has no type
+        yield int(size), group
 
 
 def neighbor_types(data: Measurements) -> tuple[Table, list[Missing]]:

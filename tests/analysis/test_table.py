@@ -1,5 +1,6 @@
 """Tables and their CSV text."""
 
+import csv
 import io
 
 import numpy as np
@@ -24,9 +25,10 @@ def table(rows):
 def test_floats_survive_the_csv_bit_for_bit():
     values = [1 / 3, 0.1 + 0.2, 5e-324, 1.7976931348623157e308, -0.0, 7.535e-5]
     text = table([("a, b", 10, value) for value in values]).to_csv()
-    back = pd.read_csv(io.StringIO(text), float_precision="round_trip")
-    assert back["value"].to_numpy().tobytes() == np.array(values).tobytes()
-    assert set(back["method"]) == {"a, b"}
+    back = list(csv.DictReader(io.StringIO(text)))
+    read = np.array([float(row["value"]) for row in back])
+    assert read.tobytes() == np.array(values).tobytes()
+    assert {row["method"] for row in back} == {"a, b"}
 
 
 def test_header_has_names_with_units():

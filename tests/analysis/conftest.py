@@ -1,0 +1,32 @@
+import numpy as np
+import pandas as pd
+import pytest
+from frames import design, frames
+from scipy import stats
+
+from study.analysis import analyse, published
+
+
+@pytest.fixture(scope="session")
+def study():
+    """A small study by two methods: design, frames and tables."""
+    asked = design(methods=("incremental", "delaunay"))
+    made = frames(asked)
+    return asked, made, analyse(*made, asked)
+
+
+@pytest.fixture(scope="session")
+def paper_study():
+    """Groups with exactly the published means and standard deviations of Table 4."""
+    sizes = published.sizes()
+    asked = design(distributions=("uniform",), sizes=sizes, repetitions=published.REPETITIONS)
+    results, *others = frames(asked.model_copy(update={"sizes": (1000,)}))
+    scores = stats.zscore(stats.norm.ppf((np.arange(40) + 0.5) / 40), ddof=1)
+    rows = []
+    for triangles, largest, mean, sd in published.table_4():
+        group = results.assign(n_points=mean.n_points, mean_lepp=mean.value + sd.value * scores)
+        group["n_triangles"] = np.repeat([int(triangles.value) - 1, int(triangles.value) + 1], 20)
+        group["max_lepp"] = np.repeat([int(largest.value) - 1, int(largest.value) + 1], 20)
+        rows.append(group)
+    made = (pd.concat(rows, ignore_index=True), *others)
+    return asked, made, analyse(*made, asked)
