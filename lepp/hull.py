@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lepp.jit import inlined, kernel
-from lepp.predicates import orientation
+from lepp.predicates import ORIENTATION_BOUND, UNDERFLOW, orientation
 
 _LEFT_OUT = -1
 # `place` of a point that sees hull edge e is _SEES - e; of a point in root triangle t it is t.
@@ -272,41 +272,51 @@ def _settle(points, hull, i, q, fan, n_roots, n_ring):
     n_fan = len(fan) - 1
     first, last = start[fan[0]], start[fan[n_fan]]
     incoming, outgoing = n_ring, n_ring + 1
+    qx, qy = points[q, 0], points[q, 1]
+    fx, fy = points[first, 0] - qx, points[first, 1] - qy
+    lx, ly = points[last, 0] - qx, points[last, 1] - qy
+    # Heads of the lists of those that see the new edges; the third is of those that see none.
+    heads = np.full(3, -1, np.int32)
+    heads[0], heads[1] = seeing[incoming], seeing[outgoing]
     while i >= 0:
         current = i
         i = following[i]
-        side = orient(points, q, first, current)
-        other_side = orient(points, q, last, current)
-        if side > 0 or other_side < 0:
-            edge = incoming if side > 0 else outgoing
-            place[current] = _SEES - edge
-            following[current] = seeing[edge]
-            seeing[edge] = current
-        elif side == 0 or other_side == 0:
-            if same(points, q, current):
-                place[current] = _LEFT_OUT
-                if current != q:
-                    hull.repeats[current] = q
+        dx, dy = points[current, 0] - qx, points[current, 1] - qy
+        side = fx * dy - fy * dx
+        other_side = lx * dy - ly * dx
+        bound = ORIENTATION_BOUND * (abs(fx * dy) + abs(fy * dx)) + UNDERFLOW
+        other_bound = ORIENTATION_BOUND * (abs(lx * dy) + abs(ly * dx)) + UNDERFLOW
+        if not ((abs(side) > bound) & (abs(other_side) > other_bound)):
+            side = float(orient(points, q, first, current))
+            other_side = float(orient(points, q, last, current))
+            if side <= 0.0 and other_side >= 0.0 and (side == 0.0 or other_side == 0.0):
+                if same(points, q, current):
+                    place[current] = _LEFT_OUT
+                    if current != q:
+                        hull.repeats[current] = q
+                    continue
+                edge = incoming if side == 0.0 else outgoing
+                place[current] = n_roots if side == 0.0 else n_roots + n_fan - 1
+                on_edge[current] = _ON_HULL + edge
+                following[current] = lying[edge]
+                lying[edge] = current
                 continue
-            edge = incoming if side == 0 else outgoing
-            place[current] = n_roots if side == 0 else n_roots + n_fan - 1
-            on_edge[current] = _ON_HULL + edge
-            following[current] = lying[edge]
-            lying[edge] = current
-        else:
-            low, high = 0, n_fan
-            while high - low > 1:
-                middle = (low + high) // 2
-                side = orient(points, q, start[fan[middle]], current)
-                if side < 0:
-                    low = middle
-                elif side > 0:
-                    high = middle
-                else:
-                    low, high = middle - 1, middle
-                    on_edge[current] = 1
-                    also[current] = n_roots + middle + 1
-            place[current] = n_roots + low
+        low, high = 0, n_fan
+        while high - low > 1:
+            middle = (low + high) // 2
+            turn = orient(points, q, start[fan[middle]], current)
+            if turn == 0 and side < 0.0 and other_side > 0.0:
+                low, high = middle - 1, middle
+                on_edge[current] = 1
+                also[current] = n_roots + middle + 1
+            else:
+                low, high = (middle, high) if turn < 0 else (low, middle)
+        group = 1 if other_side < 0.0 else 2
+        group = 0 if side > 0.0 else group
+        place[current] = n_roots + low if group == 2 else _SEES - (n_ring + group)
+        following[current] = heads[group]
+        heads[group] = current
+    seeing[incoming], seeing[outgoing] = heads[0], heads[1]
 
 
 @kernel

@@ -15,7 +15,7 @@ TYPE_NONE, TYPE_A, TYPE_B, TYPE_C = 0, 1, 2, 3
 """Type of a longest-edge neighbour: none; E is its shortest, middle or longest edge (Definition 1)."""
 
 # Squares of lengths outside these bounds may have lost bits to over- or underflow.
-_SAFE_SQUARES = (2.0**-900, 2.0**900)
+_SAFE_MIN, _SAFE_MAX = 2.0**-900, 2.0**900
 # Rounds over all unfinished paths before the rest, if any are longer, are walked one by one.
 _ROUNDS = 40
 
@@ -86,8 +86,7 @@ def _longest_edges(triangulation: Triangulation) -> tuple[np.ndarray, np.ndarray
     ranks, successors = np.empty(m, np.uint8), np.empty(m, np.int32)
     space = points.shape[1] == 3
     order = _order_edges_in_space if space else _order_edges
-    smallest, largest = order(points, triangles, triangulation.neighbors, ranks, successors)
-    if smallest < _SAFE_SQUARES[0] or largest > _SAFE_SQUARES[1]:
+    if order(points, triangles, triangulation.neighbors, ranks, successors):
         # A power of two changes no bit of a length; centred, no difference can overflow.
         extent = np.ptp(points / 4.0, axis=0).max()
         scaled = np.ldexp(points, -int(np.frexp(extent)[1]) - 2)
@@ -107,12 +106,12 @@ def _is_longer(square_1, a_1, b_1, square_2, a_2, b_2):
 @inlined
 def _order(t, a, b, c, across_a, across_b, across_c, neighbors, ranks, successors):
     """Write the rank and the successor of a triangle with these squared edge lengths."""
-    if across_a != across_b and across_b != across_c and across_c != across_a:
-        longest = 0 if across_a > across_b else 1
-        shortest = 1 if across_a > across_b else 0
-        longest = 2 if across_c > max(across_a, across_b) else longest
-        shortest = 2 if across_c < min(across_a, across_b) else shortest
-    else:
+    a_b = across_a > across_b
+    long, short = (across_a, across_b) if a_b else (across_b, across_a)
+    longest, shortest = (0, 1) if a_b else (1, 0)
+    longest = 2 if across_c > long else longest
+    shortest = 2 if across_c < short else shortest
+    if (across_a == across_b) | (across_b == across_c) | (across_c == across_a):
         a_b = _is_longer(across_a, b, c, across_b, c, a)
         b_c = _is_longer(across_b, c, a, across_c, a, b)
         c_a = _is_longer(across_c, a, b, across_a, b, c)
@@ -122,10 +121,19 @@ def _order(t, a, b, c, across_a, across_b, across_c, neighbors, ranks, successor
     successors[t] = neighbors[t, longest]
 
 
+@inlined
+def _unsafe(across_a, across_b, across_c):
+    """Tell whether squared lengths may have lost bits to over- or underflow."""
+    total = across_a + across_b + across_c
+    return not ((across_a > _SAFE_MIN) & (across_b > _SAFE_MIN) & (across_c > _SAFE_MIN)) or not (
+        total < _SAFE_MAX
+    )
+
+
 @kernel
 def _order_edges(points, triangles, neighbors, ranks, successors):
-    """Write ranks and successors; return the least and greatest squared lengths."""
-    smallest, largest = np.inf, 0.0
+    """Write ranks and successors; tell whether any squared length is unsafe."""
+    unsafe = False
     for t in range(len(triangles)):
         a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
         ax, ay = points[a, 0], points[a, 1]
@@ -134,16 +142,15 @@ def _order_edges(points, triangles, neighbors, ranks, successors):
         across_a = (bx - cx) * (bx - cx) + (by - cy) * (by - cy)
         across_b = (cx - ax) * (cx - ax) + (cy - ay) * (cy - ay)
         across_c = (ax - bx) * (ax - bx) + (ay - by) * (ay - by)
-        smallest = min(smallest, min(across_a, min(across_b, across_c)))
-        largest = max(largest, max(across_a, max(across_b, across_c)))
+        unsafe |= _unsafe(across_a, across_b, across_c)
         _order(t, a, b, c, across_a, across_b, across_c, neighbors, ranks, successors)
-    return smallest, largest
+    return unsafe
 
 
 @kernel
 def _order_edges_in_space(points, triangles, neighbors, ranks, successors):
     """Do the same as `_order_edges` for points with three coordinates."""
-    smallest, largest = np.inf, 0.0
+    unsafe = False
     for t in range(len(triangles)):
         a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
         across_a = across_b = across_c = 0.0
@@ -151,10 +158,9 @@ def _order_edges_in_space(points, triangles, neighbors, ranks, successors):
             across_a += (points[b, k] - points[c, k]) ** 2
             across_b += (points[c, k] - points[a, k]) ** 2
             across_c += (points[a, k] - points[b, k]) ** 2
-        smallest = min(smallest, min(across_a, min(across_b, across_c)))
-        largest = max(largest, max(across_a, max(across_b, across_c)))
+        unsafe |= _unsafe(across_a, across_b, across_c)
         _order(t, a, b, c, across_a, across_b, across_c, neighbors, ranks, successors)
-    return smallest, largest
+    return unsafe
 
 
 @kernel

@@ -186,3 +186,119 @@ def orientations(points, triangles):
             points[a, 0], points[a, 1], points[b, 0], points[b, 1], points[c, 0], points[c, 1]
         )
     return signs
+
+# The permanent of the in-circle determinant is at most a third of the square of the sum of the three
+# squared distances, so 10/3 EPSILON of that bounds the rounding error; the rest covers its own.
+IN_CIRCLE_BOUND = 4.0 * EPSILON
+_PERMANENT_BOUND = (10.0 + 96.0 * EPSILON) * EPSILON
+# With integers up to this, the in-circle determinant (12 times the fourth power) fits 63 bits.
+_SMALL_BITS = 14
+
+
+@kernel
+def _add_minor(accumulator, sign, ax, ay, bx, by, cx, cy):
+    """Add the determinant of rows (x, y, x * x + y * y) to a fixed-point number, exactly."""
+    for x, y, x1, y1, x2, y2 in (
+        (ax, ay, bx, by, cx, cy),
+        (bx, by, cx, cy, ax, ay),
+        (cx, cy, ax, ay, bx, by),
+    ):
+        add_product(accumulator, sign, (x, x, x1, y2))
+        add_product(accumulator, sign, (y, y, x1, y2))
+        add_product(accumulator, -sign, (x, x, x2, y1))
+        add_product(accumulator, -sign, (y, y, x2, y1))
+
+
+@kernel
+def exact_in_circle(ax, ay, bx, by, cx, cy, px, py):
+    """Return the sign of `in_circle` by fixed-point summation of its 48 products."""
+    accumulator = new_accumulator(4)
+    _add_minor(accumulator, 1, ax, ay, bx, by, cx, cy)
+    _add_minor(accumulator, -1, ax, ay, bx, by, px, py)
+    _add_minor(accumulator, 1, ax, ay, cx, cy, px, py)
+    _add_minor(accumulator, -1, bx, by, cx, cy, px, py)
+    return accumulator_sign(accumulator)
+
+
+@kernel
+def _exact_in_circle_of_differences(ax, ay, bx, by, cx, cy):
+    """Return the sign of `in_circle` from exact coordinates relative to p.
+
+    On lattices these are small multiples of a power of two, and the determinant fits an integer;
+    elsewhere 12 products are summed in fixed point.
+    """
+    largest = max(abs(ax), abs(ay), abs(bx), abs(by), abs(cx), abs(cy))
+    scale = math.ldexp(1.0, _SMALL_BITS - math.frexp(largest)[1])
+    ax_i, ay_i, bx_i = np.int64(ax * scale), np.int64(ay * scale), np.int64(bx * scale)
+    by_i, cx_i, cy_i = np.int64(by * scale), np.int64(cx * scale), np.int64(cy * scale)
+    if (
+        ax_i == ax * scale
+        and ay_i == ay * scale
+        and bx_i == bx * scale
+        and by_i == by * scale
+        and cx_i == cx * scale
+        and cy_i == cy * scale
+    ):
+        determinant = (
+            (ax_i * ax_i + ay_i * ay_i) * (bx_i * cy_i - cx_i * by_i)
+            + (bx_i * bx_i + by_i * by_i) * (cx_i * ay_i - ax_i * cy_i)
+            + (cx_i * cx_i + cy_i * cy_i) * (ax_i * by_i - bx_i * ay_i)
+        )
+        return int(determinant > 0) - int(determinant < 0)
+    accumulator = new_accumulator(4)
+    _add_minor(accumulator, 1, ax, ay, bx, by, cx, cy)
+    return accumulator_sign(accumulator)
+
+
+@kernel
+def uncertain_in_circle(ax, ay, bx, by, cx, cy, px, py):
+    """Return the sign of `in_circle` where its first floating filter has failed.
+
+    The second filter is sharper for points that lie near a line.
+    """
+    adx, ady, bdx, bdy, cdx, cdy = ax - px, ay - py, bx - px, by - py, cx - px, cy - py
+    a_square, b_square, c_square = adx * adx + ady * ady, bdx * bdx + bdy * bdy, cdx * cdx + cdy * cdy
+    bc, cb, ca, ac, ab, ba = bdx * cdy, cdx * bdy, cdx * ady, adx * cdy, adx * bdy, bdx * ady
+    determinant = a_square * (bc - cb) + b_square * (ca - ac) + c_square * (ab - ba)
+    permanent = (
+        a_square * (abs(bc) + abs(cb))
+        + b_square * (abs(ca) + abs(ac))
+        + c_square * (abs(ab) + abs(ba))
+    )
+    # What a product loses to underflow may then be multiplied by a square, or by a product.
+    lost = UNDERFLOW * (1.0 + a_square + b_square + c_square)
+    if abs(determinant) > _PERMANENT_BOUND * permanent + lost:
+        return 1 if determinant > 0.0 else -1
+    if (
+        _difference_is_exact(ax, px, adx)
+        and _difference_is_exact(ay, py, ady)
+        and _difference_is_exact(bx, px, bdx)
+        and _difference_is_exact(by, py, bdy)
+        and _difference_is_exact(cx, px, cdx)
+        and _difference_is_exact(cy, py, cdy)
+    ):
+        return _exact_in_circle_of_differences(adx, ady, bdx, bdy, cdx, cdy)
+    return exact_in_circle(ax, ay, bx, by, cx, cy, px, py)
+
+
+@kernel
+def in_circle(ax, ay, bx, by, cx, cy, px, py):
+    """Tell whether the point p lies inside the circle through a, b, c (counter-clockwise).
+
+    Returns
+    -------
+    int
+        1 inside, -1 outside, 0 on the circle; the opposite if a, b, c turn clockwise. Exact for all
+        finite doubles.
+    """
+    adx, ady, bdx, bdy, cdx, cdy = ax - px, ay - py, bx - px, by - py, cx - px, cy - py
+    a_square, b_square, c_square = adx * adx + ady * ady, bdx * bdx + bdy * bdy, cdx * cdx + cdy * cdy
+    determinant = (
+        a_square * (bdx * cdy - cdx * bdy)
+        + b_square * (cdx * ady - adx * cdy)
+        + c_square * (adx * bdy - bdx * ady)
+    )
+    size = a_square + b_square + c_square
+    if abs(determinant) > IN_CIRCLE_BOUND * (size * size) + UNDERFLOW:
+        return 1 if determinant > 0.0 else -1
+    return uncertain_in_circle(ax, ay, bx, by, cx, cy, px, py)

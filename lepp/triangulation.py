@@ -121,9 +121,8 @@ def check_points(points: np.ndarray, dimensions: Sequence[int] = (2,)) -> np.nda
     if len(array) > _MAX_POINTS:
         raise InputError(f"{len(array)} points are more than one mesh can hold ({_MAX_POINTS}).")
     array = np.ascontiguousarray(array, np.float64)
-    finite = np.isfinite(array).all(axis=1)
-    if not finite.all():
-        bad = np.flatnonzero(~finite)
+    if not np.isfinite(array).all():
+        bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
         raise InputError(
             f"Points {_listed(bad)} have coordinates that are not finite: remove them."
         )
