@@ -39,9 +39,15 @@ class Hull(NamedTuple):
 
 
 def empty_hull(n: int) -> Hull:
-    ring = (np.empty(2 * n + 4, np.int32) for _ in range(6))
+    """Return a hull with room for n points, none of them in yet."""
+    after, before, start, inner, seeing, lying = np.empty((6, 2 * n + 4), np.int32)
     return Hull(
-        *ring,
+        after,
+        before,
+        start,
+        inner,
+        seeing,
+        lying,
         following=np.empty(n, np.int32),
         place=np.full(n, _LEFT_OUT, np.int32),
         on_edge=np.zeros(n, np.int32),

@@ -17,7 +17,7 @@ of half-edge h is h ^ 1. The half-edge of a triangle (a, b, c) across from a run
 import numpy as np
 
 from lepp.hull import empty_hull, orient, parts_of, same, sweep_hull
-from lepp.jit import inlined, kernel
+from lepp.jit import kernel
 from lepp.predicates import ORIENTATION_BOUND, UNDERFLOW
 
 
@@ -286,7 +286,7 @@ def _subdivide(
     return n_triangles
 
 
-@inlined
+@kernel
 def _set(jobs, k, a, b, c, across_a, across_b, across_c, low, high, top2, top3):
     """Write down a triangle to be split."""
     jobs[k, 0], jobs[k, 1], jobs[k, 2] = a, b, c
@@ -294,7 +294,7 @@ def _set(jobs, k, a, b, c, across_a, across_b, across_c, low, high, top2, top3):
     jobs[k, 6], jobs[k, 7], jobs[k, 8], jobs[k, 9] = low, high, top2, top3
 
 
-@inlined
+@kernel
 def _write(triangles, half_edges, owners, t, a, b, c, across_a, across_b, across_c):
     """Write down a triangle that is final."""
     triangles[t, 0], triangles[t, 1], triangles[t, 2] = a, b, c

@@ -12,7 +12,7 @@ from lepp.jit import inlined, kernel
 from lepp.triangulation import Triangulation
 
 TYPE_NONE, TYPE_A, TYPE_B, TYPE_C = 0, 1, 2, 3
-"""Type of a longest-edge neighbour: none; E is its shortest, middle or longest edge (Definition 1)."""
+"""Type of a longest-edge neighbour (Definition 1): none; E is its shortest, middle, longest edge."""
 
 # Squares of lengths outside these bounds may have lost bits to over- or underflow.
 _SAFE_MIN, _SAFE_MAX = 2.0**-900, 2.0**900
@@ -62,7 +62,7 @@ def lepp_sizes(triangulation: Triangulation) -> np.ndarray:
 
 
 def lepp_paths(triangulation: Triangulation) -> LeppPaths:
-    """Return the longest-edge propagation paths of all triangles, with all that is asked of them.
+    """Return the longest-edge propagation paths of all triangles.
 
     Parameters
     ----------

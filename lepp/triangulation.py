@@ -89,8 +89,8 @@ class Triangulation:
 
 
 _PROBLEMS = {
-    NON_MANIFOLD: "Triangles {} share an edge with two or more others, so that a path across it has "
-    "no single next triangle: take them out or split the mesh there.",
+    NON_MANIFOLD: "Triangles {} share an edge with two or more others, so that a path across it "
+    "has no single next triangle: take them out or split the mesh there.",
     INCONSISTENT: "Triangles {} run along an edge in the same direction as their neighbour, so one "
     "of the two is turned over: orient all triangles alike.",
     DUPLICATE_EDGE: "Triangles {} share all their vertices with another: remove the duplicates.",
@@ -112,7 +112,7 @@ def check_points(points: np.ndarray, dimensions: Sequence[int] = (2,)) -> np.nda
     wanted = " or ".join(f"(n, {d})" for d in dimensions)
     if array.dtype.kind not in "fiu":
         raise InputError(
-            f"The points are of dtype {array.dtype}: give real numbers, in an array of shape {wanted}."
+            f"The points are of dtype {array.dtype}: give real numbers, of shape {wanted}."
         )
     if array.ndim != 2 or array.shape[1] not in dimensions:
         raise InputError(f"The points have shape {array.shape}: give an array of shape {wanted}.")

@@ -2,6 +2,7 @@
 
 from collections import Counter
 from fractions import Fraction
+from itertools import pairwise
 
 
 def exact(points):
@@ -37,7 +38,7 @@ def incremental(points):
             chain.append(i)
         else:
             chain.sort(key=lambda j: points[j])
-            for a, b in zip(chain, chain[1:], strict=False):
+            for a, b in pairwise(chain):
                 triangles.append((a, b, i) if turn(points[a], points[b], p) > 0 else (b, a, i))
     return {canonical(t) for t in triangles}, repeated
 
