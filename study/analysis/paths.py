@@ -112,7 +112,7 @@ def ratio_interval(ended: np.ndarray, reached: np.ndarray) -> tuple[float, float
     Returns
     -------
     rate, standard_error, low, high : float
-        Error and t interval are NaN for fewer than two triangulations.
+        Error and t interval are NaN for fewer than two triangulations, or equal ratios.
 
     Notes
     -----
@@ -120,9 +120,10 @@ def ratio_interval(ended: np.ndarray, reached: np.ndarray) -> tuple[float, float
     """
     r, total = len(reached), reached.sum()
     rate = ended.sum() / total
-    if r < 2:
+    squares = ((ended - rate * reached) ** 2).sum()
+    if r < 2 or not squares > 0:
         return float(rate), np.nan, np.nan, np.nan
-    error = np.sqrt(r / (r - 1) * ((ended - rate * reached) ** 2).sum()) / total
+    error = np.sqrt(r / (r - 1) * squares) / total
     half = t_quantile(r - 1) * error
     return float(rate), float(error), float(max(rate - half, 0)), float(min(rate + half, 1))
 

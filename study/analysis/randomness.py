@@ -24,11 +24,13 @@ _RANDOMNESS = (
     Column("share_below", "Share below 0.05", "", "percent2"),
     Column("share_low", "95 % from", "", "percent2"),
     Column("share_high", "95 % to", "", "percent2"),
+    Column("share_p", "p of the share", "", "p"),
+    Column("share_p_holm", "p of the share, Holm", "", "p"),
+    Column("verdict", "Random"),
     Column("rejected_holm", "Rejected after Holm", "tests", "int"),
     Column("lowest_p", "Lowest p", "", "p"),
     Column("uniform_d", "Distance from uniform", "", "fixed4"),
     Column("uniform_p", "p of uniformity", "", "p"),
-    Column("verdict", "Random"),
 )
 
 _UNIFORMITY = (
@@ -52,15 +54,20 @@ def randomness(data: Measurements) -> tuple[Table, list[Missing]]:
     families, missing = _families(data)
     if families:
         families.append(("all", "all", "all", np.concatenate([p for *_, p in families])))
+    corrected = holm(np.array([_share_p(values) for *_, values in families]))
     rows = [
-        {"distribution": distribution, "test": test, "coordinate": coordinate} | _judge(values)
-        for distribution, test, coordinate, values in families
+        {"distribution": distribution, "test": test, "coordinate": coordinate}
+        | _judge(values)
+        | {"share_p_holm": p, "verdict": "rejected" if p < SIGNIFICANCE else "not rejected"}
+        for (distribution, test, coordinate, values), p in zip(families, corrected, strict=True)
     ]
     note = (
         "Runs test about the median and Kolmogorov-Smirnov test against the true distribution, of "
         "both coordinates of every point set. Random points give p below 0.05 in one test of "
-        "twenty: that some do is expected, and only a share whose (Clopper-Pearson) interval "
-        "leaves out 0.05 speaks against them. Holm's correction counts the tests of the row. "
+        "twenty: that some do is expected, and only a share far from 0.05 speaks against them. "
+        "Its interval is Clopper and Pearson's, its p the exact binomial test's; one interval in "
+        "twenty misses by chance, so the verdict is after Holm's correction over the rows. "
+        "Rejected after Holm counts single point sets, corrected for the tests of the row. "
         "Uniformity is a Kolmogorov-Smirnov test of the p-values; those of the runs test are "
         "discrete, coarsely so for small sets. x and y of the bivariate normal distribution are "
         "correlated, and so are, weakly, their tests. Point sets count once, whatever "
@@ -123,9 +130,14 @@ def _judge(values: np.ndarray) -> Row:
         "share_below": below / tests,
         "share_low": low,
         "share_high": high,
+        "share_p": _share_p(values),
         "rejected_holm": int((holm(values) < SIGNIFICANCE).sum()),
         "lowest_p": values.min(),
         "uniform_d": uniform.statistic,
         "uniform_p": uniform.pvalue,
-        "verdict": "not rejected" if low <= SIGNIFICANCE <= high else "rejected",
     }
+
+
+def _share_p(values: np.ndarray) -> float:
+    below = int((values < SIGNIFICANCE).sum())
+    return float(stats.binomtest(below, len(values), SIGNIFICANCE).pvalue)

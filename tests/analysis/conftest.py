@@ -25,8 +25,15 @@ def paper_study():
     rows = []
     for triangles, largest, mean, sd in published.table_4():
         group = results.assign(n_points=mean.n_points, mean_lepp=mean.value + sd.value * scores)
-        group["n_triangles"] = np.repeat([int(triangles.value) - 1, int(triangles.value) + 1], 20)
+        least, more = divmod(round(triangles.value * len(group)), len(group))
+        group["n_triangles"] = least + np.repeat([-3, 3], 20) + (np.arange(len(group)) < more)
         group["max_lepp"] = np.repeat([int(largest.value) - 1, int(largest.value) + 1], 20)
         rows.append(group)
     made = (pd.concat(rows, ignore_index=True), *others)
     return asked, made, analyse(*made, asked)
+
+
+@pytest.fixture(autouse=True)
+def _short_worst_case(monkeypatch):
+    """Keep the million triangles for the fixtures above, which are made before."""
+    monkeypatch.setattr("study.analysis.worst_case._SIZES", (1, 2, 3))

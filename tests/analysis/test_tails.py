@@ -8,7 +8,7 @@ from scipy import stats
 
 from study.analysis.tails import log10_chi2_tail, log10_f_tail, log10_t_tail
 
-DIGITS = 4000
+DIGITS = 1100
 
 
 @pytest.mark.parametrize("f", [0.5, 3.0, 1e3, 1e6])
@@ -36,7 +36,7 @@ def test_f_tail_with_even_degrees_of_freedom_is_a_finite_sum(f):
     assert log10_f_tail(f, 2 * b, 2 * a) == pytest.approx(float(exact), rel=1e-11)
 
 
-@pytest.mark.parametrize(("t", "df"), [(1.5, 4), (200.0, 78), (5000.0, 78), (2000.0, 780)])
+@pytest.mark.parametrize(("t", "df"), [(1.5, 4), (200.0, 78), (5000.0, 78), (400.0, 780)])
 def test_t_tail_with_even_degrees_of_freedom_is_a_finite_sum(t, df):
     # Abramowitz and Stegun 26.7.4, its cancellation outdone by digits
     with localcontext(prec=DIGITS):
