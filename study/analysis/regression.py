@@ -160,7 +160,10 @@ def coefficients(fits: Fits) -> Table:
             fit.model.terms, fit.coefficients, fit.standard_errors, *fit.intervals, strict=True
         )
     ]
-    note = "x is in thousands of points. Intervals suppose that the model is true."
+    note = (
+        "x is in thousands of points. Intervals suppose that the model is true; those of the fits "
+        "by least squares also that all groups have the same variance, which Levene's test tells."
+    )
     title = "Coefficients of the regressions (Table 7)"
     return Table.from_rows("coefficients", title, _COEFFICIENTS, rows, note)
 
