@@ -16,12 +16,15 @@ of half-edge h is h ^ 1. The half-edge of a triangle (a, b, c) across from a run
 
 import numpy as np
 
+from lepp.edges import is_safe, rank
 from lepp.hull import empty_hull, orient, parts_of, same, sweep_hull
 from lepp.jit import kernel
 from lepp.predicates import ORIENTATION_BOUND, UNDERFLOW
 
 
-def incremental(points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def incremental(
+    points: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray | None]:
     """Triangulate by plain insertion in the given order.
 
     Parameters
@@ -35,6 +38,9 @@ def incremental(points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]
         As in `lepp.Triangulation`; m is 0 when all points lie on one line.
     repeated : (k, 2) int32 ndarray
         Points left out and the points that they repeat.
+    ranks : (m,) uint8 ndarray or None
+        As from `lepp.edges.edge_ranks`: here the coordinates are at hand. None where lengths are so
+        great or small that their squares are not to be trusted.
     """
     n = len(points)
     hull = empty_hull(n)
@@ -45,14 +51,16 @@ def incremental(points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     triangles = np.empty((2 * n, 3), np.int32)
     half_edges = np.empty((2 * n, 3), np.int32)
     owners = np.zeros(8 * n, np.int32)
-    n_triangles = _subdivide(
+    ranks = np.empty(2 * n, np.uint8)
+    n_triangles, safe = _subdivide(
         points, roots, starts, room, x, y, ident, n_edges, split, hull.repeats,
-        triangles, half_edges, owners,
+        triangles, half_edges, owners, ranks,
     )  # fmt: skip
     neighbors = half_edges[:n_triangles]
     _link(neighbors, owners)
     left_out = np.flatnonzero(hull.repeats >= 0).astype(np.int32)
-    return triangles[:n_triangles], neighbors, np.column_stack((left_out, hull.repeats[left_out]))
+    repeated = np.column_stack((left_out, hull.repeats[left_out]))
+    return triangles[:n_triangles], neighbors, repeated, ranks[:n_triangles] if safe else None
 
 
 @kernel
@@ -119,8 +127,9 @@ def _exact_parts(points, p, a, b, c, i):
 
 @kernel
 def _subdivide(
-    points, roots, starts, room, x, y, ident, n_edges, split, repeats, triangles, half_edges, owners
-):
+    points, roots, starts, room, x, y, ident, n_edges, split, repeats,
+    triangles, half_edges, owners, ranks,
+):  # fmt: skip
     """Insert the points of each root triangle, depth first.
 
     Parameters
@@ -139,11 +148,13 @@ def _subdivide(
     triangles, half_edges : (2 n, 3) int32 ndarray, output
     owners : (8 n,) int32 ndarray, output
         The triangle of each half-edge, plus one; zero at the boundary.
+    ranks : (2 n,) uint8 ndarray, output
 
     Returns
     -------
-    int
-        Number of triangles.
+    n_triangles : int
+    safe : bool
+        Whether the ranks can be trusted.
     """
     # The lists of points are on three stacks, one after the other in x, y and ident. A triangle's
     # list is on top of one of them, where the first of its parts keeps its points; the other parts
@@ -151,23 +162,31 @@ def _subdivide(
     n_roots = len(starts) - 1
     second = starts[n_roots] + room
     third = second + room
-    # Triangles to be split: vertices, half-edges, bounds of the list, tops of the other stacks.
+    # Triangles to be split: vertices, half-edges, bounds of the list, tops of the other stacks;
+    # coordinates of the vertices, squared lengths of the sides across from them.
     jobs = np.empty((room, 10), np.int64)
-    corners = np.empty((room, 6))
+    shapes = np.empty((room, 9))
     n_triangles = 0
+    safe = True
     for root in range(n_roots - 1, -1, -1):
-        low, high = starts[root], starts[root + 1]
         a, b, c = roots[root, 0], roots[root, 1], roots[root, 2]
         across_a, across_b, across_c = roots[root, 3], roots[root, 4], roots[root, 5]
+        low, high = starts[root], starts[root + 1]
+        a_x, a_y = points[a, 0], points[a, 1]
+        b_x, b_y = points[b, 0], points[b, 1]
+        c_x, c_y = points[c, 0], points[c, 1]
+        b_c, c_a = _square(b_x - c_x, b_y - c_y), _square(c_x - a_x, c_y - a_y)
+        a_b = _square(a_x - b_x, a_y - b_y)
         if low == high:
+            safe &= is_safe(b_c, c_a, a_b)
+            ranks[n_triangles] = rank(a, b, c, b_c, c_a, a_b)
             _write(
                 triangles, half_edges, owners, n_triangles, a, b, c, across_a, across_b, across_c
             )
             n_triangles += 1
             continue
         _set(jobs, 0, a, b, c, across_a, across_b, across_c, low, high, second, third)
-        for k in range(6):
-            corners[0, k] = points[roots[root, k // 2], k % 2]
+        _shape(shapes, 0, a_x, a_y, b_x, b_y, c_x, c_y, b_c, c_a, a_b)
         n_jobs = 1
         while n_jobs:
             n_jobs -= 1
@@ -179,53 +198,20 @@ def _subdivide(
                 jobs[n_jobs, 8],
                 jobs[n_jobs, 9],
             )
-            a_x, a_y = corners[n_jobs, 0], corners[n_jobs, 1]
-            b_x, b_y = corners[n_jobs, 2], corners[n_jobs, 3]
-            c_x, c_y = corners[n_jobs, 4], corners[n_jobs, 5]
+            a_x, a_y = shapes[n_jobs, 0], shapes[n_jobs, 1]
+            b_x, b_y = shapes[n_jobs, 2], shapes[n_jobs, 3]
+            c_x, c_y = shapes[n_jobs, 4], shapes[n_jobs, 5]
+            b_c, c_a, a_b = shapes[n_jobs, 6], shapes[n_jobs, 7], shapes[n_jobs, 8]
             p = np.int64(ident[low])
-            px, py = x[low], y[low]
+            p_x, p_y = x[low], y[low]
             end1, end2, end3 = low, low2, low3
-            if p >= 0:
-                ax, ay = a_x - px, a_y - py
-                bx, by = b_x - px, b_y - py
-                cx, cy = c_x - px, c_y - py
-                # No point of the triangle is farther from p: this bounds the error of all signs.
-                width = max(max(abs(ax), abs(bx)), abs(cx))
-                height = max(max(abs(ay), abs(by)), abs(cy))
-                bound = 2.0 * ORIENTATION_BOUND * (width * height) + UNDERFLOW
-                for k in range(low + 1, high):
-                    xk, yk, i = x[k], y[k], ident[k]
-                    dx, dy = xk - px, yk - py
-                    to_a = ax * dy - ay * dx
-                    to_b = bx * dy - by * dx
-                    to_c = cx * dy - cy * dx
-                    in1 = (to_a > 0.0) & (to_b < 0.0)
-                    in2 = (to_b > 0.0) & (to_c < 0.0)
-                    in3 = (to_c > 0.0) & (to_a < 0.0)
-                    if not ((abs(to_a) > bound) & (abs(to_b) > bound) & (abs(to_c) > bound)):
-                        q = i if i >= 0 else ~i
-                        found = _exact_parts(points, p, a, b, c, q)
-                        in1, in2, in3 = (found & 1) != 0, (found & 2) != 0, (found & 4) != 0
-                        if found == 0:
-                            repeats[q] = p
-                        elif found & (found - 1):
-                            i = ~q
-                    # Written to all three lists, of which one grows: no branch to mispredict.
-                    x[end1], y[end1], ident[end1] = xk, yk, i
-                    x[end2], y[end2], ident[end2] = xk, yk, i
-                    x[end3], y[end3], ident[end3] = xk, yk, i
-                    end1 += in1
-                    end2 += in2
-                    end3 += in3
-                p_a, p_b, p_c = 2 * n_edges, 2 * n_edges + 2, 2 * n_edges + 4
-                n_edges += 3
-                n_parts = 3
-            else:  # p lies on a side, which is to be ab
+            if p < 0:  # p lies on a side, which is to be ab
                 p = ~p
                 while orient(points, a, b, p) != 0:
                     a, b, c = b, c, a
                     a_x, a_y, b_x, b_y, c_x, c_y = b_x, b_y, c_x, c_y, a_x, a_y
                     across_a, across_b, across_c = across_b, across_c, across_a
+                    b_c, c_a, a_b = c_a, a_b, b_c
                 edge = across_c >> 1
                 if split[edge] == 0:  # else the triangle on the other side came first
                     split[edge] = n_edges
@@ -239,36 +225,90 @@ def _subdivide(
                             repeats[q] = p
                             continue
                         i = ~q
-                    xk, yk = x[k], y[k]
+                    x_k, y_k = x[k], y[k]
                     if side <= 0:
-                        x[end2], y[end2], ident[end2] = xk, yk, i
+                        x[end2], y[end2], ident[end2] = x_k, y_k, i
                         end2 += 1
                     if side >= 0:
-                        x[end3], y[end3], ident[end3] = xk, yk, i
+                        x[end3], y[end3], ident[end3] = x_k, y_k, i
                         end3 += 1
-                p_a, p_b = parts_of(across_c, split[edge])
-                p_a ^= 1
-                p_c = 2 * n_edges
+                a_to_p, to_b = parts_of(across_c, split[edge])
+                to_a = a_to_p ^ 1
+                to_c = 2 * n_edges
                 n_edges += 1
-                n_parts = 2
-            for part in range(3 - n_parts, 3):
+                first_part = 1
+            else:
+                ax, ay = a_x - p_x, a_y - p_y
+                bx, by = b_x - p_x, b_y - p_y
+                cx, cy = c_x - p_x, c_y - p_y
+                # No point of the triangle is farther from p: this bounds the error of all signs.
+                width = max(max(abs(ax), abs(bx)), abs(cx))
+                height = max(max(abs(ay), abs(by)), abs(cy))
+                bound = 2.0 * ORIENTATION_BOUND * (width * height) + UNDERFLOW
+                for k in range(low + 1, high):
+                    x_k, y_k, i = x[k], y[k], ident[k]
+                    dx, dy = x_k - p_x, y_k - p_y
+                    left_of_a = ax * dy - ay * dx
+                    left_of_b = bx * dy - by * dx
+                    left_of_c = cx * dy - cy * dx
+                    in1 = (left_of_a > 0.0) & (left_of_b < 0.0)
+                    in2 = (left_of_b > 0.0) & (left_of_c < 0.0)
+                    in3 = (left_of_c > 0.0) & (left_of_a < 0.0)
+                    if not (
+                        (abs(left_of_a) > bound)
+                        & (abs(left_of_b) > bound)
+                        & (abs(left_of_c) > bound)
+                    ):
+                        q = i if i >= 0 else ~i
+                        found = _exact_parts(points, p, a, b, c, q)
+                        in1, in2, in3 = (found & 1) != 0, (found & 2) != 0, (found & 4) != 0
+                        if found == 0:
+                            repeats[q] = p
+                        elif found & (found - 1):
+                            i = ~q
+                    # Written to all three lists, of which one grows: no branch to mispredict.
+                    x[end1], y[end1], ident[end1] = x_k, y_k, i
+                    x[end2], y[end2], ident[end2] = x_k, y_k, i
+                    x[end3], y[end3], ident[end3] = x_k, y_k, i
+                    end1 += in1
+                    end2 += in2
+                    end3 += in3
+                to_a, to_b, to_c = 2 * n_edges, 2 * n_edges + 2, 2 * n_edges + 4  # from p
+                n_edges += 3
+                first_part = 0
+            p_a, p_b = _square(a_x - p_x, a_y - p_y), _square(b_x - p_x, b_y - p_y)
+            p_c = _square(c_x - p_x, c_y - p_y)
+            for part in range(first_part, 3):
                 u, v, w, across_u, across_v, across_w = a, b, c, across_a, across_b, across_c
                 u_x, u_y, v_x, v_y, w_x, w_y = a_x, a_y, b_x, b_y, c_x, c_y
+                v_w, w_u, u_v = b_c, c_a, a_b
                 if part == 0:
-                    w, w_x, w_y, across_u, across_v = p, px, py, p_b ^ 1, p_a
+                    w, w_x, w_y, v_w, w_u = p, p_x, p_y, p_b, p_a
+                    across_u, across_v = to_b ^ 1, to_a
                     first, last, top2, top3 = low, end1, low2, low3
                 elif part == 1:
-                    u, u_x, u_y, across_v, across_w = p, px, py, p_c ^ 1, p_b
+                    u, u_x, u_y, w_u, u_v = p, p_x, p_y, p_c, p_b
+                    across_v, across_w = to_c ^ 1, to_b
                     first, last, top2, top3 = low2, end2, low3, end1
                 else:
-                    v, v_x, v_y, across_w, across_u = p, px, py, p_a ^ 1, p_c
+                    v, v_x, v_y, u_v, v_w = p, p_x, p_y, p_a, p_c
+                    across_w, across_u = to_a ^ 1, to_c
                     first, last, top2, top3 = low3, end3, end1, end2
                 t = n_triangles
                 if first == last:
+                    safe &= is_safe(v_w, w_u, u_v)
+                    ranks[t] = rank(u, v, w, v_w, w_u, u_v)
                     _write(triangles, half_edges, owners, t, u, v, w, across_u, across_v, across_w)
                     n_triangles += 1
                 elif first + 1 == last and ident[first] >= 0:
-                    q = ident[first]
+                    q = np.int64(ident[first])
+                    q_u = _square(u_x - x[first], u_y - y[first])
+                    q_v = _square(v_x - x[first], v_y - y[first])
+                    q_w = _square(w_x - x[first], w_y - y[first])
+                    safe &= is_safe(v_w, w_u, u_v) & is_safe(q_u, q_v, q_w)
+                    ranks[t] = rank(u, v, q, q_v, q_u, u_v)
+                    ranks[t + 1] = rank(q, v, w, v_w, q_w, q_v)
+                    ranks[t + 2] = rank(u, q, w, q_w, w_u, q_u)
                     h = 2 * n_edges  # from q to u; + 2, + 4: to v, w
                     n_edges += 3
                     _write(triangles, half_edges, owners, t, u, v, q, h + 3, h, across_w)
@@ -279,11 +319,15 @@ def _subdivide(
                     _set(
                         jobs, n_jobs, u, v, w, across_u, across_v, across_w, first, last, top2, top3
                     )
-                    corners[n_jobs, 0], corners[n_jobs, 1] = u_x, u_y
-                    corners[n_jobs, 2], corners[n_jobs, 3] = v_x, v_y
-                    corners[n_jobs, 4], corners[n_jobs, 5] = w_x, w_y
+                    _shape(shapes, n_jobs, u_x, u_y, v_x, v_y, w_x, w_y, v_w, w_u, u_v)
                     n_jobs += 1
-    return n_triangles
+    return n_triangles, safe
+
+
+@kernel
+def _square(dx, dy):
+    """Return a squared length: the bits that `lepp.edges` finds, too."""
+    return dx * dx + dy * dy
 
 
 @kernel
@@ -292,6 +336,14 @@ def _set(jobs, k, a, b, c, across_a, across_b, across_c, low, high, top2, top3):
     jobs[k, 0], jobs[k, 1], jobs[k, 2] = a, b, c
     jobs[k, 3], jobs[k, 4], jobs[k, 5] = across_a, across_b, across_c
     jobs[k, 6], jobs[k, 7], jobs[k, 8], jobs[k, 9] = low, high, top2, top3
+
+
+@kernel
+def _shape(shapes, k, a_x, a_y, b_x, b_y, c_x, c_y, b_c, c_a, a_b):
+    """Write down the shape of a triangle to be split."""
+    shapes[k, 0], shapes[k, 1], shapes[k, 2] = a_x, a_y, b_x
+    shapes[k, 3], shapes[k, 4], shapes[k, 5] = b_y, c_x, c_y
+    shapes[k, 6], shapes[k, 7], shapes[k, 8] = b_c, c_a, a_b
 
 
 @kernel

@@ -39,12 +39,15 @@ class Triangulation:
         Neighbour k of a triangle is across from its vertex k; -1 at the boundary.
     repeated : (k, 2) int32 ndarray
         For each point that was left out because it repeats another: its index, and the other's.
+    ranks : (m,) uint8 ndarray or None
+        What `lepp.edges.edge_ranks` would find, where the method of triangulation has found it.
     """
 
     points: np.ndarray
     triangles: np.ndarray
     neighbors: np.ndarray
     repeated: np.ndarray = field(default_factory=_no_repeated)
+    ranks: np.ndarray | None = None
 
     def __len__(self) -> int:
         return len(self.triangles)
@@ -156,10 +159,10 @@ def triangulate(points: np.ndarray, method: str = "incremental") -> Triangulatio
     points = check_points(points)
     if method not in METHODS:
         raise InputError(f"There is no method {method!r}: use one of {', '.join(METHODS)}.")
-    triangles, neighbors, repeated = incremental(points)
+    triangles, neighbors, repeated, ranks = incremental(points)
     if len(triangles) == 0:
         raise InputError("All points lie on one line: no triangle has an area.")
-    return Triangulation(points, triangles, neighbors, repeated)
+    return Triangulation(points, triangles, neighbors, repeated, ranks)
 
 
 def _check_indices(triangles: np.ndarray, n_points: int) -> np.ndarray:
