@@ -27,6 +27,9 @@ class Commands(click.Group):
         """Run a command; print the sentence of an `InputError` and exit with 2."""
         try:
             return super().invoke(ctx)
+        except KeyboardInterrupt:
+            click.echo("Stopped.", err=True)
+            ctx.exit(EXIT_INTERRUPTED)
         except ValueError as error:
             from lepp import InputError
 

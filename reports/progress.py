@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from datetime import timedelta
 from time import monotonic
 
 import click
@@ -12,7 +13,6 @@ from rich.progress import (
     ProgressColumn,
     TaskID,
     TextColumn,
-    TimeRemainingColumn,
 )
 from rich.progress import Task as Bar
 from rich.text import Text
@@ -32,9 +32,17 @@ def _plan(unfinished: Sequence[Task], n_tasks: int) -> str:
 
 
 class _Rate(ProgressColumn):
+    """Points per second since the start, and the time that the rest takes at this rate.
+
+    Tasks arrive many at a time: the rate between arrivals, which rich would show, means nothing.
+    """
+
     def render(self, task: Bar) -> Text:
-        speed = task.finished_speed or task.speed
-        return Text(f"{speed / 1e6:.2f} million points/s" if speed else "")
+        if not task.completed or not task.elapsed:
+            return Text("")
+        rate = task.completed / (task.finished_time or task.elapsed)
+        left = timedelta(seconds=round((task.remaining or 0) / rate))
+        return Text(f"{rate / 1e6:.2f} million points/s, {left} left")
 
 
 class TerminalProgress:
@@ -100,8 +108,6 @@ def progress() -> Iterator[Listener]:
         BarColumn(),
         TextColumn("{task.percentage:>3.0f}%"),
         _Rate(),
-        TimeRemainingColumn(),
-        TextColumn("left"),
     )
     with Progress(*columns, console=console) as bars:
         yield TerminalProgress(bars)

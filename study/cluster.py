@@ -1,9 +1,9 @@
 """The Dask cluster that a study runs on: one of this computer's cores, or any scheduler's."""
 
 import logging
-from collections.abc import Iterator
+import warnings
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from importlib.metadata import version
 from typing import Any, cast
 
 import dask
@@ -11,6 +11,7 @@ import psutil
 from dask.system import CPU_COUNT
 from distributed import Client, LocalCluster
 from distributed.system import MEMORY_LIMIT
+from distributed.versions import VersionMismatchWarning
 
 import lepp
 from lepp import InputError
@@ -23,8 +24,12 @@ CONNECT_SECONDS = 10
 #: Workers of a cluster may still be starting when its scheduler answers.
 WORKERS_SECONDS = 60
 
-#: Packages that have to be the same on every worker: for the numbers, or to understand each other.
-_SHARED = ("numpy", "scipy", "numba", "dask", "distributed", "cloudpickle", "msgpack")
+#: A worker compiles all kernels in less than a minute; it may have work of others to do.
+COMPILE_SECONDS = 600
+
+#: Packages that have to be the same to understand each other, and on the workers for the numbers.
+_WIRE = ("dask", "distributed", "cloudpickle", "msgpack")
+_SHARED = (*_WIRE, "lepp-study", "numpy", "scipy", "numba")
 
 _LOCAL_SETTINGS = {
     # A task that was in a dying worker twice is tried again by itself, not by the scheduler.
@@ -113,6 +118,8 @@ def _local(workers: int) -> Iterator[Client]:
             processes=True,  # each with a nanny, which replaces it when it dies
             host="127.0.0.1",
             dashboard_address=None,
+            # Without a dashboard there still is a server of metrics, by default on port 8787.
+            scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
             silence_logs=logging.CRITICAL,
         )
     except (OSError, RuntimeError, TimeoutError) as error:
@@ -124,12 +131,12 @@ def _local(workers: int) -> Iterator[Client]:
 @contextmanager
 def _remote(scheduler: str) -> Iterator[Client]:
     try:
-        client = Client(scheduler, timeout=CONNECT_SECONDS)
-    except (OSError, ValueError, TypeError) as error:
-        reason = "" if isinstance(error, TimeoutError) else f" ({error})"
+        with warnings.catch_warnings(action="ignore", category=VersionMismatchWarning):
+            client = Client(scheduler, timeout=CONNECT_SECONDS)
+    except Exception as error:  # what listens there may be anything, and send anything
         raise InputError(
-            f"No scheduler answers at {scheduler} within {CONNECT_SECONDS} seconds{reason}: check "
-            "the address, which looks like tcp://10.0.0.1:8786."
+            f"No scheduler answers at {scheduler} within {CONNECT_SECONDS} seconds ({error}): "
+            "check the address, which looks like tcp://10.0.0.1:8786."
         ) from None
     try:
         yield client
@@ -146,44 +153,49 @@ def _check_workers(client: Client, scheduler: str, design: Design) -> None:
         ) from None
     found: Any = client.get_versions(packages=list(_SHARED))
     here = _versions(found["client"])
+    check_versions("scheduler", _versions(found["scheduler"]), here, _WIRE)
     for address, report in found["workers"].items():
-        _check_versions(address, _versions(report), here)
+        check_versions(f"worker {address}", _versions(report), here, _SHARED)
     workers = client.scheduler_info(n_workers=-1)["workers"]
     for worker in workers.values():
         if worker["memory_limit"]:
             check_memory(design, worker["nthreads"], worker["memory_limit"])
     # One worker a host compiles, the others then load.
     hosts = {worker["host"]: address for address, worker in workers.items()}
-    for address in hosts.values():
-        _prepare(client, address)
+    for host, address in hosts.items():
+        future = client.submit(lepp.compile_kernels, workers=[address], pure=False)
+        try:
+            future.result(timeout=COMPILE_SECONDS)
+        except Exception as error:  # whatever befalls a worker
+            raise InputError(
+                f"The worker {address} on {host} could not compile the kernels ({error!r}): try "
+                'python -c "import lepp; lepp.compile_kernels()" there.'
+            ) from None
 
 
-def _versions(report: dict[str, Any]) -> dict[str, str]:
+def _versions(report: dict[str, Any]) -> dict[str, str | None]:
     python = ".".join(report["host"]["python"].split(".")[:2])
     return {"Python": python} | {name: report["packages"].get(name) for name in _SHARED}
 
 
-def _check_versions(address: str, there: dict[str, str], here: dict[str, str]) -> None:
-    for name, expected in here.items():
-        if there[name] != expected:
+def check_versions(
+    who: str, there: dict[str, str | None], here: dict[str, str | None], names: Sequence[str]
+) -> None:
+    """Raise `InputError` if a part of a cluster has other versions than this computer.
+
+    Parameters
+    ----------
+    who : str
+        The part, in words.
+    there, here : dict
+        Versions by name, of Python and of packages; None for a package that is not installed.
+    names : sequence of str
+        The packages that matter, beside Python.
+    """
+    for name in ("Python", *names):
+        if there[name] != here[name]:
+            has = f"has {name} {there[name]}" if there[name] else f"does not have {name}"
             raise InputError(
-                f"The worker {address} has {name} {there[name]} and this computer has {expected}: "
-                "the results would depend on which computes them, so install the same on both."
+                f"The {who} {has}, and this computer has {name} {here[name]}: install the same "
+                "version on both."
             )
-
-
-def _prepare(client: Client, address: str) -> None:
-    try:
-        future = client.submit(prepare_worker, workers=[address], pure=False)
-        found, expected = future.result(), version("lepp-study")
-    except ModuleNotFoundError as error:
-        raise InputError(
-            f"The worker {address} does not know {error.name}: install lepp-study on it."
-        ) from None
-    _check_versions(address, {"lepp-study": found}, {"lepp-study": expected})
-
-
-def prepare_worker() -> str:
-    """Compile or load the kernels on a worker; return its version of this package."""
-    lepp.compile_kernels()
-    return version("lepp-study")

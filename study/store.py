@@ -161,7 +161,8 @@ class Store:
         manifest: dict[str, Any] = {"complete": False}
         if (self.directory / MANIFEST).exists():
             manifest, found = _read_manifest(self.directory)
-            if difference := found.difference(self.design):
+            difference = found.difference(self.design)
+            if difference and not self._has_nothing(manifest):
                 raise InputError(
                     f"{self.directory} holds the results of another design ({difference}): give "
                     "another directory."
@@ -176,6 +177,11 @@ class Store:
         self._outcomes = _read_outcomes(self.directory, self.design)
         self._write_manifest(complete=False)
         self._journal = Journal(self.directory / JOURNAL)
+
+    def _has_nothing(self, manifest: dict[str, Any]) -> bool:
+        """Whether the run of a manifest ended before its first result, for example in an error."""
+        journal = self.directory / JOURNAL
+        return not manifest["complete"] and (not journal.exists() or journal.stat().st_size == 0)
 
     @property
     def unfinished(self) -> list[Task]:

@@ -298,6 +298,12 @@ def test_another_design_is_refused_with_the_setting_that_differs(whole):
         assert store.unfinished == []
 
 
+def test_a_run_that_never_had_a_result_keeps_no_other_design_out(tmp_path):
+    Store(tmp_path, Design.from_settings(DESIGN.model_dump() | {"seed": 2})).close()
+    fill(tmp_path)
+    assert load(tmp_path).design == DESIGN
+
+
 def test_a_foreign_directory_is_refused_untouched(tmp_path):
     (tmp_path / "thesis.tex").write_text("mine")
     with pytest.raises(InputError, match="is not empty and holds no results of lepp-study"):
