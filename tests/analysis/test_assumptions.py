@@ -64,6 +64,7 @@ def test_qq_pairs_sorted_scores_with_normal_quantiles(study):
     np.testing.assert_allclose(qq["standardised_mean"], scores)
     middle = stats.norm.cdf(qq["normal_quantile"])
     np.testing.assert_allclose(np.diff(middle), 1 / (len(scores) + 0.25))
+    assert middle[0] == pytest.approx(0.625 / (len(scores) + 0.25))
     for n, score in zip(qq["n_points"], qq["standardised_mean"], strict=True):
         g = groups[n]
         assert np.isclose((g - g.mean()) / g.std(ddof=1), score).any()

@@ -79,6 +79,13 @@ def test_quality_is_statsmodels(study, observed, fitting):
     assert row["bic"] == pytest.approx(fit.bic + np.log(len(y)))
 
 
+def test_weights_are_reciprocal_sample_variances_of_groups_of_any_size():
+    values = (np.array([3.0, 3.1]), np.array([3.0, 3.2, 3.1, 3.4]))
+    seen = Observations.of(Groups(np.array([1000, 2000]), values), weighted=True)
+    expected = np.repeat([1 / np.var(group, ddof=1) for group in values], [2, 4])
+    np.testing.assert_allclose(seen.weights(seen.y), expected)
+
+
 def test_aic_of_the_logistic_model_is_that_of_y(study, observed):
     x, y = observed
     a, b = coefficients(study[2], "logistic")
