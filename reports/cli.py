@@ -130,7 +130,7 @@ def report(directory: Path) -> None:
     type=click.IntRange(min=1),
     default=5,
     show_default=True,
-    help="Times that each is measured; the fastest counts.",
+    help="Times that each is measured; the median counts.",
 )
 def bench(points: int, repeats: int) -> None:
     """Measure this machine: triangulation and LEPP against scipy.spatial.Delaunay."""
@@ -140,10 +140,16 @@ def bench(points: int, repeats: int) -> None:
     from study import benchmark
 
     rows = benchmark.run(points, repeats)
-    table = Table(*rows[0], title=f"{points:,} uniform points, one core")
+    name, *numbers = rows[0]
+    table = Table(title=f"{points:,} uniform points, one core")
+    table.add_column(name, no_wrap=True)
+    for number in numbers:
+        table.add_column(number, justify="right")
     for row in rows:
-        table.add_row(*map(str, row.values()))
-    Console().print(table)
+        table.add_row(*row.values())
+    console = Console()
+    # Elsewhere than on a terminal, rich takes lines to have 80 characters.
+    console.print(table, width=None if console.is_terminal else 110)
 
 
 def _choose(
