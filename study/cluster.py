@@ -4,18 +4,22 @@ import logging
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any, cast
+from typing import Any
 
 import dask
+import distributed
 import psutil
 from dask.system import CPU_COUNT
-from distributed import Client, LocalCluster
+from distributed import Client
 from distributed.system import MEMORY_LIMIT
 from distributed.versions import VersionMismatchWarning
 
 import lepp
 from lepp import InputError
 from study.design import Design
+
+# Few functions of distributed are annotated.
+_distributed: Any = distributed
 
 #: Most memory that a task takes at a time, measured on Delaunay and incremental triangulations.
 BYTES_PER_POINT = 400
@@ -112,7 +116,7 @@ def _gigabytes(n_bytes: int) -> str:
 @contextmanager
 def _local(workers: int) -> Iterator[Client]:
     try:
-        cluster = LocalCluster(
+        cluster = _distributed.LocalCluster(
             n_workers=workers,
             threads_per_worker=1,
             processes=True,  # each with a nanny, which replaces it when it dies
@@ -124,7 +128,7 @@ def _local(workers: int) -> Iterator[Client]:
         )
     except (OSError, RuntimeError, TimeoutError) as error:
         raise InputError(f"The workers did not start: {error}.") from error
-    with cluster, Client(cluster) as client:
+    with cluster, _distributed.Client(cluster) as client:
         yield client
 
 
@@ -132,7 +136,7 @@ def _local(workers: int) -> Iterator[Client]:
 def _remote(scheduler: str) -> Iterator[Client]:
     try:
         with warnings.catch_warnings(action="ignore", category=VersionMismatchWarning):
-            client = Client(scheduler, timeout=CONNECT_SECONDS)
+            client = _distributed.Client(scheduler, timeout=CONNECT_SECONDS)
     except Exception as error:  # what listens there may be anything, and send anything
         raise InputError(
             f"No scheduler answers at {scheduler} within {CONNECT_SECONDS} seconds ({error}): "
@@ -141,7 +145,7 @@ def _remote(scheduler: str) -> Iterator[Client]:
     try:
         yield client
     finally:
-        cast(Any, client).close(timeout=CONNECT_SECONDS)
+        client.close(timeout=CONNECT_SECONDS)
 
 
 def _check_workers(client: Client, scheduler: str, design: Design) -> None:
