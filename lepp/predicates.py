@@ -187,8 +187,9 @@ def orientations(points, triangles):
         )
     return signs
 
-# The permanent of the in-circle determinant is at most a third of the square of the sum of the three
-# squared distances, so 10/3 EPSILON of that bounds the rounding error; the rest covers its own.
+
+# The permanent of the in-circle determinant is at most a third of the square of the sum of the
+# three squared distances: 10/3 EPSILON of that bounds the rounding error, the rest covers its own.
 IN_CIRCLE_BOUND = 4.0 * EPSILON
 _PERMANENT_BOUND = (10.0 + 96.0 * EPSILON) * EPSILON
 # With integers up to this, the in-circle determinant (12 times the fourth power) fits 63 bits.
@@ -257,7 +258,11 @@ def uncertain_in_circle(ax, ay, bx, by, cx, cy, px, py):
     The second filter is sharper for points that lie near a line.
     """
     adx, ady, bdx, bdy, cdx, cdy = ax - px, ay - py, bx - px, by - py, cx - px, cy - py
-    a_square, b_square, c_square = adx * adx + ady * ady, bdx * bdx + bdy * bdy, cdx * cdx + cdy * cdy
+    a_square, b_square, c_square = (
+        adx * adx + ady * ady,
+        bdx * bdx + bdy * bdy,
+        cdx * cdx + cdy * cdy,
+    )
     bc, cb, ca, ac, ab, ba = bdx * cdy, cdx * bdy, cdx * ady, adx * cdy, adx * bdy, bdx * ady
     determinant = a_square * (bc - cb) + b_square * (ca - ac) + c_square * (ab - ba)
     permanent = (
@@ -292,7 +297,11 @@ def in_circle(ax, ay, bx, by, cx, cy, px, py):
         finite doubles.
     """
     adx, ady, bdx, bdy, cdx, cdy = ax - px, ay - py, bx - px, by - py, cx - px, cy - py
-    a_square, b_square, c_square = adx * adx + ady * ady, bdx * bdx + bdy * bdy, cdx * cdx + cdy * cdy
+    a_square, b_square, c_square = (
+        adx * adx + ady * ady,
+        bdx * bdx + bdy * bdy,
+        cdx * cdx + cdy * cdy,
+    )
     determinant = (
         a_square * (bdx * cdy - cdx * bdy)
         + b_square * (cdx * ady - adx * cdy)

@@ -11,11 +11,12 @@ from lepp.adjacency import (
     NON_MANIFOLD,
     link_triangles,
 )
+from lepp.delaunay import delaunay
 from lepp.errors import InputError
 from lepp.incremental import incremental
 from lepp.predicates import orientations
 
-METHODS = ("incremental",)
+METHODS = ("incremental", "delaunay")
 """The ways to triangulate a point set, for `triangulate`."""
 
 _MAX_POINTS = (2**31 - 1) // 8  # half-edges are numbered in 32 bits
@@ -159,7 +160,8 @@ def triangulate(points: np.ndarray, method: str = "incremental") -> Triangulatio
     points = check_points(points)
     if method not in METHODS:
         raise InputError(f"There is no method {method!r}: use one of {', '.join(METHODS)}.")
-    triangles, neighbors, repeated, ranks = incremental(points)
+    build = incremental if method == "incremental" else delaunay
+    triangles, neighbors, repeated, ranks = build(points)
     if len(triangles) == 0:
         raise InputError("All points lie on one line: no triangle has an area.")
     return Triangulation(points, triangles, neighbors, repeated, ranks)
