@@ -145,7 +145,7 @@ def test_saturating_is_scipys_curve_fit(saturating_groups, weighted):
         xtol=1e-14, ftol=1e-14,
     )  # fmt: skip
     np.testing.assert_allclose(fit.coefficients, expected, rtol=1e-5)
-    np.testing.assert_allclose(fit.standard_errors, np.sqrt(np.diag(covariance)), rtol=1e-3)
+    np.testing.assert_allclose(fit.covariance, covariance, rtol=1e-2)
     low, high = fit.intervals
     assert low[0] < 3.1 < high[0]
 
