@@ -2,7 +2,7 @@
 
 from lepp import theory
 from lepp.counts import LeppCounts
-from lepp.errors import InputError
+from lepp.errors import InputError, MeshError, MeshProblem
 from lepp.paths import (
     TYPE_A,
     TYPE_B,
@@ -24,6 +24,8 @@ __all__ = [
     "InputError",
     "LeppCounts",
     "LeppPaths",
+    "MeshError",
+    "MeshProblem",
     "Triangulation",
     "compile_kernels",
     "lepp_paths",

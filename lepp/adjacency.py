@@ -4,7 +4,9 @@ import numpy as np
 
 from lepp.jit import kernel
 
-NON_MANIFOLD, INCONSISTENT, DUPLICATE_EDGE = 1, 2, 3
+NON_MANIFOLD, FOLDED, TWINNED = 1, 2, 4
+"""Flags of a triangle: it shares an edge with two or more others; it runs along an edge in the same
+direction as the other triangle there; the same triangle is its neighbour across all three edges."""
 
 
 @kernel
@@ -22,11 +24,8 @@ def link_triangles(triangles, n_points, neighbors):
 
     Returns
     -------
-    problem : int
-        0, or what is wrong: NON_MANIFOLD (three or more triangles at an edge), INCONSISTENT (two
-        that run along it in the same direction), DUPLICATE_EDGE (two with the same vertices).
-    bad : (k,) int64 ndarray
-        The triangles concerned, ascending.
+    (m,) uint8 ndarray
+        For each triangle the flags that hold; where none does, all neighbours are right.
     """
     m = len(triangles)
     low, high = np.empty(3 * m, np.int32), np.empty(3 * m, np.int32)
@@ -36,7 +35,7 @@ def link_triangles(triangles, n_points, neighbors):
             low[3 * t + k], high[3 * t + k] = min(a, b), max(a, b)
     order = _counting_sort(np.arange(3 * m), high, n_points)
     order = _counting_sort(order, low, n_points)
-    kinds = np.zeros(m, np.int8)
+    flags = np.zeros(m, np.uint8)
     first = 0
     while first < 3 * m:
         h = order[first]
@@ -50,21 +49,18 @@ def link_triangles(triangles, n_points, neighbors):
             neighbors[h // 3, h % 3] = g // 3
             neighbors[g // 3, g % 3] = h // 3
             if triangles[h // 3, (h % 3 + 1) % 3] == triangles[g // 3, (g % 3 + 1) % 3]:
-                kinds[h // 3] = INCONSISTENT
-                kinds[g // 3] = INCONSISTENT
+                flags[h // 3] |= FOLDED
+                flags[g // 3] |= FOLDED
         else:
             for i in range(first, last):
-                kinds[order[i] // 3] = NON_MANIFOLD
+                neighbors[order[i] // 3, order[i] % 3] = -1
+                flags[order[i] // 3] |= NON_MANIFOLD
         first = last
     for t in range(m):
         one, two, three = neighbors[t, 0], neighbors[t, 1], neighbors[t, 2]
-        if kinds[t] != NON_MANIFOLD and one >= 0 and one == two and two == three:
-            kinds[t] = DUPLICATE_EDGE
-    for problem in (NON_MANIFOLD, DUPLICATE_EDGE, INCONSISTENT):
-        bad = np.flatnonzero(kinds == problem)
-        if len(bad):
-            return problem, bad
-    return 0, np.empty(0, np.int64)
+        if one >= 0 and one == two and two == three:
+            flags[t] |= TWINNED
+    return flags
 
 
 @kernel

@@ -2,19 +2,15 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
-from lepp.adjacency import (
-    DUPLICATE_EDGE,
-    INCONSISTENT,
-    NON_MANIFOLD,
-    link_triangles,
-)
+from lepp.conversion import mesh_arrays
 from lepp.delaunay import delaunay
-from lepp.errors import InputError
+from lepp.errors import InputError, listed
 from lepp.incremental import incremental
-from lepp.predicates import orientations
+from lepp.soundness import RepeatedPoints, check_indices, sound_mesh
 
 METHODS = ("incremental", "delaunay")
 """The ways to triangulate a point set, for `triangulate`."""
@@ -62,7 +58,13 @@ class Triangulation:
         return int(np.count_nonzero(self.neighbors < 0))
 
     @classmethod
-    def from_arrays(cls, points: np.ndarray, triangles: np.ndarray) -> "Triangulation":
+    def from_arrays(
+        cls,
+        points: np.ndarray,
+        triangles: np.ndarray,
+        *,
+        repeated_points: RepeatedPoints = "refuse",
+    ) -> "Triangulation":
         """Build the neighbours of given triangles, and check them.
 
         Parameters
@@ -70,35 +72,62 @@ class Triangulation:
         points : (n, 2) or (n, 3) array_like of float
             Finite coordinates, of a mesh in the plane or of a surface in space.
         triangles : (m, 3) array_like of int
-            Vertices of each triangle. In the plane all must turn the same way round (if clockwise,
-            they are turned); in space, neighbours must be oriented alike.
+            Vertices of each triangle, in any order: in the plane all are made to turn
+            counter-clockwise.
+        repeated_points : {"refuse", "merge", "keep"}
+            What to do about points in use with exactly the coordinates of another: raise an error,
+            take the first of them for all (and list them in `repeated`), or leave the mesh cut
+            there.
 
         Raises
         ------
+        MeshError
+            All that is wrong: indices out of range, repeated points, triangles that have no area,
+            repeat another or lie over a neighbour, edges with more than two triangles.
         InputError
-            Indices out of range, a triangle of no area or turned over, an edge with more than two
-            triangles: says which.
+            Arrays of another shape or dtype, or coordinates that are not finite.
+
+        Notes
+        -----
+        Points that no triangle uses, holes and several pieces are all right. So are, in space,
+        neighbours that are oriented differently: a path goes by lengths and neighbours only.
         """
         points = check_points(points, dimensions=(2, 3))
-        triangles = _check_indices(triangles, len(points))
-        if points.shape[1] == 2:
-            triangles = _counter_clockwise(points, triangles)
-        else:
-            _check_not_flat(points, triangles)
-        neighbors = np.empty_like(triangles)
-        problem, bad = link_triangles(triangles, len(points), neighbors)
-        if problem:
-            raise InputError(_PROBLEMS[problem].format(_listed(bad)))
-        return cls(points, triangles, neighbors)
+        triangles = check_indices(triangles, len(points))
+        return cls(points, *sound_mesh(points, triangles, repeated_points))
 
+    @classmethod
+    def from_object(
+        cls,
+        mesh: Any,  # noqa: ANN401 - whatever has the attributes
+        *,
+        split_quads: bool = False,
+        ignore_volumes: bool = False,
+        repeated_points: RepeatedPoints = "refuse",
+    ) -> "Triangulation":
+        """Take a mesh object of another library as it is.
 
-_PROBLEMS = {
-    NON_MANIFOLD: "Triangles {} share an edge with two or more others, so that a path across it "
-    "has no single next triangle: take them out or split the mesh there.",
-    INCONSISTENT: "Triangles {} run along an edge in the same direction as their neighbour, so one "
-    "of the two is turned over: orient all triangles alike.",
-    DUPLICATE_EDGE: "Triangles {} share all their vertices with another: remove the duplicates.",
-}
+        Parameters
+        ----------
+        mesh : scipy.spatial.Delaunay, matplotlib.tri.Triangulation or meshio.Mesh
+            Triangles of several blocks are joined, in order; masked ones are left out; of curved
+            ones the corners are taken. A third coordinate that is the same everywhere is dropped.
+        split_quads : bool
+            Split each quad in two, along its shorter diagonal that lies inside.
+        ignore_volumes : bool
+            Take the triangles of a mesh that has tetrahedra or other volumes as well.
+        repeated_points : {"refuse", "merge", "keep"}
+            As for `from_arrays`.
+
+        Raises
+        ------
+        MeshError
+            As `from_arrays`, and cells that are not triangles.
+        InputError
+            An object of another kind, or without triangles.
+        """
+        given = mesh_arrays(mesh, split_quads=split_quads, ignore_volumes=ignore_volumes)
+        return cls.from_arrays(given.points, given.triangles, repeated_points=repeated_points)
 
 
 def check_points(points: np.ndarray, dimensions: Sequence[int] = (2,)) -> np.ndarray:
@@ -127,9 +156,7 @@ def check_points(points: np.ndarray, dimensions: Sequence[int] = (2,)) -> np.nda
     array = np.ascontiguousarray(array, np.float64)
     if not np.isfinite(array).all():
         bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
-        raise InputError(
-            f"Points {_listed(bad)} have coordinates that are not finite: remove them."
-        )
+        raise InputError(f"Points {listed(bad)} have coordinates that are not finite: remove them.")
     return array
 
 
@@ -165,58 +192,3 @@ def triangulate(points: np.ndarray, method: str = "incremental") -> Triangulatio
     if len(triangles) == 0:
         raise InputError("All points lie on one line: no triangle has an area.")
     return Triangulation(points, triangles, neighbors, repeated, ranks)
-
-
-def _check_indices(triangles: np.ndarray, n_points: int) -> np.ndarray:
-    array = np.asarray(triangles)
-    if array.dtype.kind not in "iu" or array.ndim != 2 or array.shape[1] != 3:
-        raise InputError(
-            f"The triangles are an array of shape {array.shape} and dtype {array.dtype}: "
-            "give integers, in an array of shape (m, 3)."
-        )
-    if len(array) == 0:
-        raise InputError("There are no triangles: give at least one.")
-    outside = ((array < 0) | (array >= n_points)).any(axis=1)
-    if outside.any():
-        raise InputError(
-            f"Triangles {_listed(np.flatnonzero(outside))} have vertices that are not among the "
-            f"{n_points} points: indices run from 0 to {n_points - 1}."
-        )
-    return np.ascontiguousarray(array, np.int32)
-
-
-def _counter_clockwise(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Return the triangles all counter-clockwise, or say which are flat or turned over."""
-    turns = orientations(points, triangles)
-    if (turns == 0).any():
-        raise InputError(_flat(np.flatnonzero(turns == 0)))
-    clockwise = turns < 0
-    if clockwise.all():
-        return np.ascontiguousarray(triangles[:, [0, 2, 1]])
-    if clockwise.any():
-        fewer = clockwise if 2 * clockwise.sum() <= len(turns) else ~clockwise
-        raise InputError(
-            f"Triangles {_listed(np.flatnonzero(fewer))} turn the other way round than the rest: "
-            "the mesh is folded there, or their vertices are in the wrong order."
-        )
-    return triangles
-
-
-def _check_not_flat(points: np.ndarray, triangles: np.ndarray) -> None:
-    """Refuse triangles of no area in space: those that are flat in all three projections."""
-    flat = np.ones(len(triangles), bool)
-    for axes in ((0, 1), (1, 2), (2, 0)):
-        plane = np.ascontiguousarray(points[:, axes])
-        flat &= orientations(plane, triangles) == 0
-    if flat.any():
-        raise InputError(_flat(np.flatnonzero(flat)))
-
-
-def _flat(bad: np.ndarray) -> str:
-    return f"Triangles {_listed(bad)} have no area: remove them."
-
-
-def _listed(indices: np.ndarray, most: int = 5) -> str:
-    """Return the first few of some indices, and how many there are."""
-    first = ", ".join(str(i) for i in indices[:most])
-    return first if len(indices) <= most else f"{first}, … ({len(indices)} in all)"

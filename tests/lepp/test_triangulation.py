@@ -63,12 +63,11 @@ def test_clockwise_meshes_are_turned():
 @pytest.mark.parametrize(
     ("triangles", "sentence"),
     [
-        ([[0, 1, 2], [0, 3, 2]], "Triangles 1 turn the other way round"),
-        ([[0, 1, 2], [0, 2, 2]], "Triangles 1 have no area"),
+        ([[0, 1, 2], [0, 2, 2]], "Triangles 1 have the same point twice, so no area"),
         ([[0, 1, 4]], "Triangles 0 have vertices that are not among the 4 points"),
         ([[0, 1, -1]], "indices run from 0 to 3"),
-        ([[0, 1, 2], [0, 1, 2]], "Triangles 0, 1 run along an edge|share all"),
-        ([[0, 1, 2], [0, 2, 3], [0, 1, 3]], "share an edge with two or more|same direction"),
+        ([[0, 1, 2], [0, 1, 2]], "Triangles 1 have the same three vertices as an earlier one"),
+        ([[0, 1, 2], [0, 2, 3], [0, 1, 3]], "Triangles 0, 1, 2 lie over a neighbour"),
         (np.empty((0, 3), int), "no triangles"),
         ([[0, 1]], r"shape \(1, 2\)"),
         ([[0.5, 1, 2]], "integers"),
@@ -83,10 +82,8 @@ def test_surfaces_that_cannot_be_used():
     points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0, -1, 0]], float)
     with pytest.raises(lepp.InputError, match="Triangles 0, 1, 2 share an edge with two or more"):
         lepp.Triangulation.from_arrays(points, [[0, 1, 2], [1, 0, 3], [0, 1, 4]])
-    with pytest.raises(lepp.InputError, match="Triangles 0, 1 share all their vertices"):
+    with pytest.raises(lepp.MeshError, match="Triangles 1 have the same three vertices"):
         lepp.Triangulation.from_arrays(points, [[0, 1, 2], [1, 0, 2]])
-    with pytest.raises(lepp.InputError, match="same direction"):
-        lepp.Triangulation.from_arrays(points, [[0, 1, 2], [0, 1, 3]])
     with pytest.raises(lepp.InputError, match="no area"):
         lepp.Triangulation.from_arrays(np.array([[0, 0, 0], [1, 1, 1], [2, 2, 2.0]]), [[0, 1, 2]])
 
