@@ -24,7 +24,7 @@ def check_against_twin(triangulation):
     )
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=120, deadline=None)
 @given(nasty_points(max_size=16))
 def test_paths_are_those_of_a_walk(points):
     try:

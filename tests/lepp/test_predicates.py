@@ -16,7 +16,7 @@ six = st.one_of(
 )
 
 
-@settings(max_examples=2000, deadline=None)
+@settings(max_examples=600, deadline=None)
 @given(six)
 def test_orientation_is_exact_for_all_doubles(numbers):
     a, b, c = naive.exact([numbers[:2], numbers[2:4], numbers[4:]])
