@@ -65,6 +65,8 @@ class TableBlock:
         Whether the reader has to open it.
     where : dict
         Values of further columns that pick the rows shown.
+    printed_whole : bool
+        Whether a print-out has all rows, however many there are.
     """
 
     table: str
@@ -73,6 +75,7 @@ class TableBlock:
     follows: tuple[str, ...] = ("method", "distribution")
     folded: bool = False
     where: dict[str, object] = field(default_factory=dict)
+    printed_whole: bool = False
     kind: str = "table"
 
 

@@ -61,8 +61,10 @@ def alarms(evidence: Evidence) -> list[str]:
     said = [
         f"{_whose(evidence, row.distribution, row.method)}{row.why}." for row in tasks.itertuples()
     ]
-    # That means show no saturation is a finding, not something the run lacks.
-    others = rows[(rows["what"] != "triangulations") & ~rows["what"].str.contains("saturating")]
+    others = rows[rows["what"] != "triangulations"]
+    # That means show no saturation is a finding, and what was not asked for is not missed.
+    others = others[~others["what"].str.contains("saturating")]
+    others = others[others["distribution"].isin(evidence.design.distributions)]
     lacking: dict[str, list[str]] = {}
     for row in others.drop_duplicates(["what", "distribution"]).itertuples():
         lacking.setdefault(row.why, []).append(row.what)

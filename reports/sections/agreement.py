@@ -41,6 +41,7 @@ def section(evidence: Evidence) -> Section:
                         ),
                         follows=("method",),
                         folded=True,
+                        printed_whole=True,
                     ),
                 ),
             ),

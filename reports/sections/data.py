@@ -137,7 +137,13 @@ def _figure_5(evidence: Evidence) -> FigureBlock:
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, lambda view: _spread(evidence, view)),
         reading="Boxes span the quartiles, whiskers reach to 1.5 times their distance.",
-        data=(TableBlock("groups", "Data of Figure 5: the groups"),),
+        data=(
+            TableBlock(
+                "groups",
+                "Data of Figure 5: the groups",
+                columns=("n_points", "triangulations", "lowest", "q1", "median", "q3", "highest"),
+            ),
+        ),
     )
 
 

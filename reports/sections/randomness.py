@@ -81,7 +81,8 @@ def _uniformity(evidence: Evidence) -> FigureBlock:
         odd = rows[rows["uniform_p"] < 0.05]
         names = [f"{row.test} of {row.coordinate}" for row in odd.itertuples()]
         found = (
-            "all four families of p-values are as even as chance allows"
+            f"all {len(rows)} families of p-values are as even as chance allows "
+            f"(lowest p of uniformity {show(rows['uniform_p'].min(), 'p')})"
             if not names
             else f"the p-values of {listed(names)} are less even than chance would have them "
             f"(p {listed([show(p, 'p') for p in odd['uniform_p']])})"

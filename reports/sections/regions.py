@@ -17,7 +17,7 @@ def section(evidence: Evidence) -> Section:
         (
             Subsection(
                 "region-sizes",
-                "",
+                "The regions of terminal edges",
                 (
                     Prose(per_view(evidence.views, lambda view: _say(evidence, view))),
                     _sizes(evidence),

@@ -108,7 +108,7 @@ class Explorer {
       box.style.background = `var(--scale-${shade})`;
       return element("li", {}, box, low === high ? String(low) : `${low}–${high}`);
     });
-    this.host.querySelector(".size-key").replaceChildren("LEPP size", ...items);
+    this.host.querySelector(".size-key ul").replaceChildren(...items);
   }
 
   path(k) {

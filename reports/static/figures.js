@@ -43,6 +43,8 @@ class Figures {
     layout.dragmode = matchMedia("(pointer: coarse)").matches ? false : "zoom";
     layout.width = undefined;
     Plotly.react(host, data, layout, CONFIG);
+    // The finding below the plot says what it shows; its tick labels would only be noise.
+    for (const drawing of host.querySelectorAll(".main-svg")) drawing.setAttribute("aria-hidden", "true");
   }
 
   redraw(view) {

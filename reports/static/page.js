@@ -68,7 +68,7 @@ function isDark() {
 
 function wireTheme(figures) {
   const button = document.getElementById("theme");
-  const settle = () => {
+  const repaint = () => {
     button.setAttribute("aria-pressed", String(isDark()));
     figures.redraw(view);
   };
@@ -77,9 +77,9 @@ function wireTheme(figures) {
     const theme = isDark() ? "light" : "dark";
     setTheme(theme);
     try { localStorage.setItem("theme", theme); } catch { /* kept for this visit only */ }
-    settle();
+    repaint();
   });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", settle);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", repaint);
 }
 
 function wirePrinter(report, figures) {
@@ -129,6 +129,12 @@ function wireContents() {
   document.querySelectorAll("main > section").forEach((section) => reading.observe(section));
 }
 
+// How far the page is, for the reader's tools and the tests.
+function settle(stage) {
+  performance.mark(stage);
+  root.dataset.ready = stage;
+}
+
 async function start() {
   showVariants();
   wireContents();
@@ -172,13 +178,13 @@ async function start() {
   drawOpenTables();
   explorer?.build(view);
   scrollToSection(address().get("section"));
-  root.dataset.ready = "tables";
+  settle("tables");
 
   wireTheme(figures);
   wirePrinter(report, figures);
   await runInflated("plotly-source");
   figures.watch(() => view);
-  root.dataset.ready = "figures";
+  settle("figures");
 }
 
 start();

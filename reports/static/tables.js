@@ -1,5 +1,5 @@
 // Tables drawn from the data block. The digits follow reports/numbers.py.
-const PRINTED_ROWS = 60;
+const PRINTED_ROWS = 40;
 const LONG = 30; // rows beyond which a table scrolls in a window of its own
 const VERDICTS = ["verdict", "holds", "incremental", "delaunay", "premise", "bounds", "equal"];
 const SPACE = "\u00a0"; // no line ends inside a number
@@ -65,7 +65,7 @@ function downloadCsv(table) {
   const link = element("a", { download: `${table.name}.csv` });
   link.href = URL.createObjectURL(new Blob([table.csv], { type: "text/csv" }));
   link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000); // a busy browser reads it late
 }
 
 // A column of logarithms of p is shown as p, so that is its heading here.
@@ -105,8 +105,9 @@ function drawTable(host, report, view, choices) {
   const places = columns.map((column) => table.index.get(column.name));
 
   const body = element("tbody");
+  const printed = "whole" in host.dataset ? rows.length : PRINTED_ROWS;
   rows.forEach((row, r) => {
-    const line = element("tr", r < PRINTED_ROWS ? {} : { class: "beyond" });
+    const line = element("tr", r < printed ? {} : { class: "beyond" });
     columns.forEach((column, k) => line.append(bodyCell(row[places[k]], column, k === 0)));
     body.append(line);
   });
@@ -120,8 +121,8 @@ function drawTable(host, report, view, choices) {
   const foot = element("div", { class: "foot" });
   const said = [table.note];
   if (!rows.length) said.push("No row could be computed for this choice.");
-  if (rows.length > PRINTED_ROWS) {
-    said.push(`${fixed(rows.length, 0)} rows; a print-out has the first ${PRINTED_ROWS}.`);
+  if (rows.length > printed) {
+    said.push(`${fixed(rows.length, 0)} rows; a print-out has the first ${printed}.`);
   }
   foot.append(button, element("p", { class: "note" }, said.filter(Boolean).join(" ")));
   host.replaceChildren(scroll, foot);

@@ -1,0 +1,97 @@
+"""Results of tiny real runs, their reports, and a browser to look at them."""
+
+import os
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, sync_playwright
+from tiny_runs import DESIGN, store_run
+
+from reports.page import write_report
+from study.experiment import perform
+
+CHROMIUM = Path("/usr/bin/chromium")
+_FLAGS = [
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+
+
+@pytest.fixture(scope="session")
+def run_directory(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return store_run(tmp_path_factory.mktemp("results") / "run", DESIGN, perform)
+
+
+@pytest.fixture(scope="session")
+def report(run_directory: Path) -> Path:
+    return write_report(run_directory)
+
+
+def _missing(what: str) -> None:
+    if os.environ.get("LEPP_BROWSER_REQUIRED"):
+        pytest.fail(f"{what}, and LEPP_BROWSER_REQUIRED is set")
+    pytest.skip(what)  # the reason is what the caller says is not there
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    if not CHROMIUM.exists():
+        _missing(f"there is no browser at {CHROMIUM}")
+    with sync_playwright() as playwright:
+        launched = playwright.chromium.launch(executable_path=str(CHROMIUM), args=_FLAGS)
+        yield launched
+        launched.close()
+
+
+@pytest.fixture(scope="session")
+def axe() -> str:
+    path = os.environ.get("LEPP_AXE")
+    if not path:
+        _missing("LEPP_AXE does not name axe-core's axe.min.js")
+    return Path(str(path)).read_text(encoding="utf-8")
+
+
+@pytest.fixture
+def open_report(browser: Browser, report: Path) -> Iterator[Callable[..., Page]]:
+    """Open the report in a page of its own; fail if the page complains or asks the network."""
+    contexts = []
+    complaints: list[str] = []
+
+    def open_page(address: str = "", path: Path = report, **options: object) -> Page:
+        options.setdefault("viewport", {"width": 1280, "height": 900})
+        options.setdefault("reduced_motion", "reduce")
+        context = browser.new_context(accept_downloads=True, **options)  # type: ignore[arg-type]
+        contexts.append(context)
+        page = context.new_page()
+        page.on("console", lambda m: complaints.append(f"{m.type}: {m.text}"))
+        page.on("pageerror", lambda error: complaints.append(f"error: {error}"))
+        page.on("request", lambda request: _local(request.url, complaints))
+        page.goto(path.as_uri() + address)
+        page.wait_for_selector("html[data-ready='figures']", state="attached")
+        return page
+
+    yield open_page
+    for context in contexts:
+        context.close()
+    assert complaints == []
+
+
+def _local(url: str, complaints: list[str]) -> None:
+    # A blob is the page's own memory: the inflated Plotly runs from one.
+    if not url.startswith(("file:", "blob:", "data:")):
+        complaints.append(f"request: {url}")
+
+
+def draw_all(page: Page) -> None:
+    """Wait until every plot that has data is drawn."""
+    page.wait_for_function(
+        "[...document.querySelectorAll('[data-figure]')]"
+        ".every(host => host.hidden || host.querySelector('.main-svg'))"
+    )
