@@ -164,7 +164,7 @@ def test_a_killed_run_goes_on_and_leaves_no_process(tmp_path, whole, number, aft
     script.write_text(CLIENT)
     process = subprocess.Popen(
         [sys.executable, str(script), str(tmp_path / "results")],
-        env=os.environ | {"PYTHONPATH": f"{Path(__file__).parent}"},
+        env=os.environ | {"PYTHONPATH": os.pathsep.join([str(Path(__file__).parent), *sys.path])},
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
         text=True,

@@ -262,7 +262,10 @@ def test_a_torn_last_line_is_dropped(tmp_path, whole, kept):
     assert len(load(tmp_path / "torn").results) == 4
     with Store(tmp_path / "torn", DESIGN) as store:
         assert store.unfinished == TASKS[4:]
-        store.add([outcome(task) for task in TASKS[4:]])
+        store.add([outcome(task) for task in TASKS[4:7]])
+    with Store(tmp_path / "torn", DESIGN) as store:  # what followed the torn line is whole
+        assert store.unfinished == TASKS[7:]
+        store.add([outcome(task) for task in TASKS[7:]])
         store.finish()
     assert contents(tmp_path / "torn") == contents(whole)
 
