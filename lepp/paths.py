@@ -52,7 +52,8 @@ def lepp_sizes(triangulation: Triangulation) -> np.ndarray:
     (m,) int32 ndarray
         1 where the longest edge is on the boundary; in time linear in m, however long the paths.
     """
-    return _sizes(_successors(triangulation.neighbors, _ranks(triangulation)))
+    successors = _successors(triangulation.neighbors, _ranks(triangulation))
+    return _follow(successors, np.empty(0, np.int32))
 
 
 def lepp_paths(triangulation: Triangulation) -> LeppPaths:
@@ -68,9 +69,10 @@ def lepp_paths(triangulation: Triangulation) -> LeppPaths:
     """
     ranks = _ranks(triangulation)
     successors = _successors(triangulation.neighbors, ranks)
-    sizes = _sizes(successors)
+    ends = np.empty(len(successors), np.int32)
+    sizes = _follow(successors, ends)
     types = _neighbor_types(triangulation.neighbors, successors, ranks)
-    terminal_edges, regions = _regions(triangulation.triangles, ranks, successors, sizes)
+    terminal_edges, regions = _regions(triangulation.triangles, ranks, ends)
     return LeppPaths(sizes, successors, types, terminal_edges, regions)
 
 
@@ -90,14 +92,22 @@ def _successors(neighbors, ranks):
 
 
 @kernel
-def _sizes(successors):
-    """Return the LEPP sizes.
+def _follow(successors, ends):
+    """Follow all paths; return the LEPP sizes.
 
     Paths are short, and all are followed at once, a step a round, without a branch to mispredict.
     What is left after some rounds is walked, each path to the first triangle whose size is known
     and then again to write the sizes down: linear for a path of any length.
+
+    Parameters
+    ----------
+    successors : (m,) int32 ndarray
+    ends : (m,) or (0,) int32 ndarray, output
+        The last triangle of each path; of a terminal pair the one with the smaller index. Not
+        wanted if empty.
     """
     m = len(successors)
+    wanted = len(ends) > 0
     sizes = np.zeros(m, np.int32)
     pending = np.empty(m + 1, np.int32)
     n_pending = 0
@@ -105,31 +115,40 @@ def _sizes(successors):
         s = successors[t]
         on = max(s, 0)
         known = sizes[on]
+        terminal = successors[on] == t
         size = known + 1 if known > 0 else 0
-        size = 2 if successors[on] == t else size
+        size = 2 if terminal else size
         size = 1 if s < 0 else size
         sizes[t] = size
+        if wanted:
+            end = min(s, t) if terminal else ends[on]
+            ends[t] = t if s < 0 else end
         pending[n_pending] = t
         n_pending += size == 0
     for _ in range(_ROUNDS):
         n_before, n_pending = n_pending, 0
         for k in range(n_before):
             t = pending[k]
-            known = sizes[successors[t]]
+            s = successors[t]
+            known = sizes[s]
             size = known + 1 if known > 0 else 0
             sizes[t] = size
+            if wanted:
+                ends[t] = ends[s]
             pending[n_pending] = t
             n_pending += size == 0
     for k in range(n_pending):
         steps = 0
-        t = pending[k]
-        while sizes[t] == 0:
-            t = successors[t]
+        last = pending[k]
+        while sizes[last] == 0:
+            last = successors[last]
             steps += 1
-        size = sizes[t] + steps
+        size = sizes[last] + steps
         t = pending[k]
         while sizes[t] == 0:
             sizes[t] = size
+            if wanted:
+                ends[t] = ends[last]
             size -= 1
             t = successors[t]
     return sizes
@@ -150,32 +169,19 @@ def _neighbor_types(neighbors, successors, ranks):
 
 
 @kernel
-def _regions(triangles, ranks, successors, sizes):
+def _regions(triangles, ranks, ends):
     """Return the terminal edges, and which of them the path of each triangle ends at."""
-    m = len(successors)
+    m = len(ends)
     edges = np.empty((m, 2), np.int32)
-    regions = np.empty(m, np.int32)
+    number = np.empty(m, np.int32)
     n_edges = 0
-    end = np.zeros(sizes.max() + 2, np.int64)
     for t in range(m):
-        s = successors[t]
-        end[sizes[t] + 1] += 1
-        if s < 0 or (successors[s] == t and t < s):
-            longest = ranks[t] & 3
-            edges[n_edges, 0] = triangles[t, (longest + 1) % 3]
-            edges[n_edges, 1] = triangles[t, (longest + 2) % 3]
-            regions[t] = n_edges
-            if s >= 0:
-                regions[s] = n_edges
-            n_edges += 1
-    for size in range(1, len(end)):
-        end[size] += end[size - 1]
-    by_size = np.empty(m, np.int32)  # a successor comes before its triangle
+        longest = ranks[t] & 3
+        number[t] = n_edges
+        edges[n_edges, 0] = triangles[t, longest + 1 if longest < 2 else 0]
+        edges[n_edges, 1] = triangles[t, longest - 1 if longest > 0 else 2]
+        n_edges += ends[t] == t  # else it is overwritten
+    regions = np.empty(m, np.int32)
     for t in range(m):
-        by_size[end[sizes[t]]] = t
-        end[sizes[t]] += 1
-    for t in by_size:
-        s = successors[t]
-        if s >= 0 and successors[s] != t:
-            regions[t] = regions[s]
+        regions[t] = number[ends[t]]
     return edges[:n_edges].copy(), regions
