@@ -19,8 +19,9 @@ triangle fails the floating filter and takes the rare branch, where it is sorted
 
 import numpy as np
 
+from lepp.edges import is_safe, rank
 from lepp.hilbert import hilbert_order
-from lepp.jit import inlined, kernel
+from lepp.jit import kernel
 from lepp.predicates import (
     IN_CIRCLE_BOUND,
     UNDERFLOW,
@@ -29,6 +30,7 @@ from lepp.predicates import (
 )
 
 _U0, _U1, _U2, _U3, _U4, _U5, _U6, _U8 = (np.uint64(k) for k in (0, 1, 2, 3, 4, 5, 6, 8))
+_ROW = ~np.uint64(7)  # takes a half-edge to half-edge 0 of its triangle
 _ROUND_SHIFT = 4  # the points of a round are every 2**4-th of the next
 _FIRST_CAPACITY = 64
 
@@ -50,6 +52,9 @@ def delaunay(
         on an empty circle, the diagonals depend on the points alone.
     repeated : (k, 2) int32 ndarray
         Points left out and the points that they repeat.
+    ranks : (m,) uint8 ndarray or None
+        As from `lepp.edges.edge_ranks`: here the coordinates are at hand. None where lengths are so
+        extreme that it must find them.
     """
     n = len(points)
     order = hilbert_order(points)
@@ -58,14 +63,17 @@ def delaunay(
     if third == n:
         none = np.empty((0, 3), np.int32)
         return none, none, np.empty((0, 2), np.int32), None
-    rows = np.empty(8 * (2 * n + 2), np.uint32)
+    rows = np.empty(16 * n + 16, np.uint32)
     _write_first_triangle(rows, first, second, third, n)
     repeats = np.full(n, -1, np.int32)
     n_rows = _insert_all(coordinates, rows, n, order, repeats)
-    triangles, neighbors = _finite_triangles(rows[: 8 * n_rows], n, order)
+    rows = rows[: 8 * n_rows]
+    m = _drop_outer(rows, n)
+    triangles, neighbors, ranks, safe = _arrays(rows, m, coordinates, order)
     left_out = np.flatnonzero(repeats >= 0)
     repeated = np.column_stack((order[left_out], order[repeats[left_out]])).astype(np.int32)
-    return triangles, neighbors, repeated[np.argsort(repeated[:, 0])], None
+    repeated = repeated[np.argsort(repeated[:, 0])]
+    return triangles, neighbors, repeated, ranks if safe else None
 
 
 @kernel
@@ -138,46 +146,6 @@ def _sees(ax, ay, bx, by, x, y):
     return min(ay, by) < y < max(ay, by)
 
 
-@inlined
-def _locate(xy, rows, infinity, start, x, y):
-    """Walk from a triangle to one in conflict with a point, or with the point as its vertex.
-
-    Parameters
-    ----------
-    start : uint64
-        Half-edge 0 of the triangle from which to walk; its vertex 0 must be finite.
-
-    Returns
-    -------
-    uint64
-        A half-edge of the triangle that holds the point, or of an outer one that the point sees.
-    """
-    h = start
-    if np.uint64(rows[h + _U1]) == infinity:
-        h += _U1
-    elif np.uint64(rows[h + _U2]) == infinity:
-        h += _U2
-    apex = np.uint64(rows[h])
-    a, b = _U2 * np.uint64(rows[_next(h)]), _U2 * np.uint64(rows[_previous(h)])
-    side = orientation(xy[a], xy[a + _U1], xy[b], xy[b + _U1], x, y)
-    if side < 0 or (side == 0 and apex == infinity):
-        h = np.uint64(rows[h + _U4])
-        apex = np.uint64(rows[h])
-    # The point is to the left of half-edge h, or on it.
-    while apex != infinity:
-        after, before = _next(h), _previous(h)
-        a, b = _U2 * np.uint64(rows[before]), _U2 * apex
-        if orientation(xy[a], xy[a + _U1], xy[b], xy[b + _U1], x, y) < 0:
-            h = np.uint64(rows[after + _U4])
-        else:
-            a = _U2 * np.uint64(rows[after])
-            if orientation(xy[b], xy[b + _U1], xy[a], xy[a + _U1], x, y) >= 0:
-                break
-            h = np.uint64(rows[before + _U4])
-        apex = np.uint64(rows[h])
-    return h
-
-
 @kernel
 def _in_conflict(ax, ay, bx, by, cx, cy, x, y):
     """Tell, exactly, whether a point is in conflict with a triangle; infinity is nan."""
@@ -191,199 +159,261 @@ def _in_conflict(ax, ay, bx, by, cx, cy, x, y):
 
 
 @kernel
-def _insert_all(xy, rows, n, order, repeats):
-    """Insert all points into the first triangle.
+def _insert(xy, rows, n_rows, infinity, points, start, order, repeats, space):
+    """Insert points one after the other.
+
+    For each: *walk* to a triangle in conflict with it; *dig* the cavity, depth first and
+    counter-clockwise about the point, changing nothing (the triangles in conflict make a tree, as
+    no vertex is inside the cavity: none is met twice); *fill* the cavity with the triangles that
+    join the point to its sides. The three are one function, with plain arrays as its local
+    variables, because to pass arrays on for each point would count their references, which doubles
+    the time.
 
     Parameters
     ----------
     xy : (2 n + 2,) float64 ndarray
     rows : (16 n + 16,) uint32 ndarray
-        Of the first triangle; output.
-    n : int
+        The mesh; updated.
+    n_rows : uint64
+    infinity : uint64
+        The vertex at infinity.
+    points : (first, stop, step, coarse)
+        The points first, first + step, ... below stop, without those that have none of the bits
+        of `coarse`.
+    start : uint64
+        Half-edge 0 of the triangle from which to walk to the first; its vertex 0 must be finite.
     order : (n,) uint32 ndarray
         Where points coincide, the original number of the one kept becomes the lowest.
     repeats : (n,) int32 ndarray, output
         For a point left out, the one that it repeats.
+    space : (cavity, sides, corners, offsets, edges, ends)
+        Room to work in, from `_room`.
 
     Returns
     -------
-    int
-        Number of rows.
+    p : int
+        `stop`, or more, when all points are in; else the first that is not, for lack of room.
+    n_rows, start : uint64
     """
-    infinity = np.uint64(n)
-    capacity = _FIRST_CAPACITY
-    # The triangles of the cavity (their half-edges 0), and its sides, counter-clockwise: the
-    # half-edge outside, the corner where it begins and that corner's place relative to p.
-    cavity = np.empty(capacity, np.uint32)
-    outside = np.empty(capacity, np.uint32)
-    corner = np.empty(capacity, np.uint32)
-    corner_xy = np.empty(2 * capacity)
-    # Edges still to be crossed: the half-edge inside, the corner where it ends, that corner's
-    # place and squared distance, and the cross product of both ends.
-    edge = np.empty(2 * capacity, np.uint32)
-    edge_xy = np.empty(4 * capacity)
-    n_rows = np.uint64(4)
-    start = np.uint64(0)
-    shift = 0
-    while (n >> shift) > 16:
-        shift += _ROUND_SHIFT
-    coarse = -1
-    while shift >= 0:
-        stride = 1 << shift
-        p = 0 if coarse < 0 else stride
-        while p < n:
-            next_p = p + stride
-            if coarse > 0 and (next_p & coarse) == 0:
-                next_p += stride
-            q = np.uint64(min(next_p, n - 1))
-            x, y = xy[_U2 * np.uint64(p)], xy[_U2 * np.uint64(p) + _U1]
-            next_x, next_y = xy[_U2 * q] - x, xy[_U2 * q + _U1] - y
-            h = _locate(xy, rows, infinity, start, x, y)
-            # Dig: depth first, counter-clockwise.
-            first = h & ~np.uint64(7)
-            u, v, w = (
-                np.uint64(rows[first]),
-                np.uint64(rows[first + _U1]),
-                np.uint64(rows[first + _U2]),
-            )
-            ux, uy = xy[_U2 * u] - x, xy[_U2 * u + _U1] - y
-            vx, vy = xy[_U2 * v] - x, xy[_U2 * v + _U1] - y
-            wx, wy = xy[_U2 * w] - x, xy[_U2 * w + _U1] - y
-            at_u, at_v, at_w = (
-                (ux == 0.0) & (uy == 0.0),
-                (vx == 0.0) & (vy == 0.0),
-                (wx == 0.0) & (wy == 0.0),
-            )
-            if at_u | at_v | at_w:
-                same = u if at_u else (v if at_v else w)
+    # Of each triangle of the cavity, half-edge 0. Of each of its sides, counter-clockwise: the
+    # half-edge outside, the vertex where it begins, and that vertex relative to the point. Of each
+    # edge still to be crossed: the half-edge inside, the vertex where it ends; that vertex relative
+    # to the point, its squared distance, and the cross product of the edge's two ends.
+    cavity, sides, corners, offsets, edges, ends = space
+    full = np.uint64(len(cavity)) - _U3
+    p, stop, step, coarse = points
+    while p < stop:
+        next_p = p + step
+        if next_p & coarse == 0:
+            next_p += step
+        i, j = _U2 * np.uint64(p), _U2 * np.uint64(min(next_p, stop - 1))
+        x, y = xy[i], xy[i + _U1]
+        next_x, next_y = xy[j] - x, xy[j + _U1] - y
+
+        # Walk. Of an outer triangle, begin with the edge on the hull.
+        h = start
+        if np.uint64(rows[h + _U1]) == infinity:
+            h += _U1
+        elif np.uint64(rows[h + _U2]) == infinity:
+            h += _U2
+        apex = np.uint64(rows[h])
+        a, b = _U2 * np.uint64(rows[_next(h)]), _U2 * np.uint64(rows[_previous(h)])
+        side = orientation(xy[a], xy[a + _U1], xy[b], xy[b + _U1], x, y)
+        if side < 0 or (side == 0 and apex == infinity):
+            h = np.uint64(rows[h + _U4])
+            apex = np.uint64(rows[h])
+        while apex != infinity:  # the point is to the left of half-edge h, or on it
+            after, before = _next(h), _previous(h)
+            a, b = _U2 * np.uint64(rows[before]), _U2 * apex
+            if orientation(xy[a], xy[a + _U1], xy[b], xy[b + _U1], x, y) < 0:
+                h = np.uint64(rows[after + _U4])
+            else:
+                a = _U2 * np.uint64(rows[after])
+                if orientation(xy[b], xy[b + _U1], xy[a], xy[a + _U1], x, y) >= 0:
+                    break
+                h = np.uint64(rows[before + _U4])
+            apex = np.uint64(rows[h])
+
+        # Dig, from the triangle (u, v, w).
+        here = h & _ROW
+        u, v, w = np.uint64(rows[here]), np.uint64(rows[here + _U1]), np.uint64(rows[here + _U2])
+        ux, uy = xy[_U2 * u] - x, xy[_U2 * u + _U1] - y
+        vx, vy = xy[_U2 * v] - x, xy[_U2 * v + _U1] - y
+        wx, wy = xy[_U2 * w] - x, xy[_U2 * w + _U1] - y
+        u_square, v_square, w_square = ux * ux + uy * uy, vx * vx + vy * vy, wx * wx + wy * wy
+        if (u_square == 0.0) | (v_square == 0.0) | (w_square == 0.0):  # as far as floats tell
+            same = u if ux == 0.0 and uy == 0.0 else infinity
+            same = v if vx == 0.0 and vy == 0.0 else same
+            same = w if wx == 0.0 and wy == 0.0 else same
+            if same != infinity:
                 if same != np.uint64(p):
                     repeats[p] = same
                     if order[p] < order[same]:
                         order[p], order[same] = order[same], order[p]
                 p = next_p
                 continue
-            u_square, v_square, w_square = ux * ux + uy * uy, vx * vx + vy * vy, wx * wx + wy * wy
-            uv = ux * vy - uy * vx
-            n_edges, n_sides, n_cavity = _U2, _U0, _U1
-            cavity[0] = first
-            edge[0], edge[1] = first + _U1, u
-            edge_xy[0], edge_xy[1], edge_xy[2], edge_xy[3] = ux, uy, u_square, wx * uy - wy * ux
-            edge[2], edge[3] = first, w
-            edge_xy[4], edge_xy[5], edge_xy[6], edge_xy[7] = wx, wy, w_square, vx * wy - vy * wx
-            h = first + _U2
-            while True:
-                g = np.uint64(rows[h + _U4])
-                w = np.uint64(rows[g])
-                wx, wy = xy[_U2 * w] - x, xy[_U2 * w + _U1] - y
-                w_square = wx * wx + wy * wy
-                uw = ux * wy - uy * wx
-                wv = wx * vy - wy * vx
-                determinant = v_square * uw + u_square * wv - w_square * uv
-                size = u_square + v_square + w_square
-                conflict = determinant > 0.0
-                if not abs(determinant) > IN_CIRCLE_BOUND * (size * size) + UNDERFLOW:
-                    conflict = _in_conflict(
-                        xy[_U2 * w], xy[_U2 * w + _U1], xy[_U2 * v], xy[_U2 * v + _U1],
-                        xy[_U2 * u], xy[_U2 * u + _U1], x, y,
-                    )  # fmt: skip
-                if conflict:
-                    cavity[n_cavity] = g & ~np.uint64(7)
-                    n_cavity += _U1
-                    edge[_U2 * n_edges], edge[_U2 * n_edges + _U1] = _previous(g), v
-                    place = _U4 * n_edges
-                    edge_xy[place], edge_xy[place + _U1] = vx, vy
-                    edge_xy[place + _U2], edge_xy[place + _U3] = v_square, wv
-                    n_edges += _U1
-                    h = _next(g)
-                    v, vx, vy, v_square, uv = w, wx, wy, w_square, uw
-                    if n_cavity + _U4 > np.uint64(capacity):
-                        capacity *= 2
-                        cavity, outside, corner = _grown(cavity), _grown(outside), _grown(corner)
-                        corner_xy, edge, edge_xy = _grown(corner_xy), _grown(edge), _grown(edge_xy)
-                else:
-                    outside[n_sides], corner[n_sides] = g, u
-                    corner_xy[_U2 * n_sides], corner_xy[_U2 * n_sides + _U1] = ux, uy
-                    n_sides += _U1
-                    if n_edges == _U0:
-                        break
-                    n_edges -= _U1
-                    u, ux, uy, u_square = v, vx, vy, v_square
-                    h, v = np.uint64(edge[_U2 * n_edges]), np.uint64(edge[_U2 * n_edges + _U1])
-                    place = _U4 * n_edges
-                    vx, vy = edge_xy[place], edge_xy[place + _U1]
-                    v_square, uv = edge_xy[place + _U2], edge_xy[place + _U3]
-            # Fill
-            cavity[n_cavity] = _U8 * n_rows
-            cavity[n_cavity + _U1] = _U8 * n_rows + _U8
-            n_rows += _U2
-            last = n_sides - _U1
-            before, here = np.uint64(cavity[last]), np.uint64(cavity[_U0])
-            b = np.uint64(corner[_U0])
-            turn = corner_xy[_U0] * next_y - corner_xy[_U1] * next_x
-            corner[n_sides] = b
-            cavity[n_sides] = here
-            start = here
-            corner_xy[_U2 * n_sides], corner_xy[_U2 * n_sides + _U1] = corner_xy[0], corner_xy[1]
-            for k in range(n_sides):
-                after = np.uint64(cavity[k + _U1])
-                a = b
-                b = np.uint64(corner[k + _U1])
-                g = np.uint64(outside[k])
-                next_turn = corner_xy[_U2 * k + _U2] * next_y - corner_xy[_U2 * k + _U3] * next_x
-                rows[here], rows[here + _U1], rows[here + _U2] = p, a, b
-                rows[here + _U4], rows[here + _U5], rows[here + _U6] = g, after + _U2, before + _U1
-                rows[g + _U4] = here
-                start = here if (turn >= 0.0) & (next_turn < 0.0) else start
-                turn = next_turn
-                before, here = here, after
-            p = next_p
-        coarse = stride - 1
+        cavity[0] = here
+        edges[0], edges[1] = here + _U1, u
+        ends[0], ends[1], ends[2], ends[3] = ux, uy, u_square, wx * uy - wy * ux
+        edges[2], edges[3] = here, w
+        ends[4], ends[5], ends[6], ends[7] = wx, wy, w_square, vx * wy - vy * wx
+        n_edges, n_sides, n_cavity = _U2, _U0, _U1
+        h = here + _U2
+        uv = ux * vy - uy * vx
+        while n_cavity < full:
+            # Across half-edge h, from u to v, is the triangle (w, v, u).
+            h = np.uint64(rows[h + _U4])
+            w = np.uint64(rows[h])
+            wx, wy = xy[_U2 * w] - x, xy[_U2 * w + _U1] - y
+            w_square = wx * wx + wy * wy
+            uw = ux * wy - uy * wx
+            wv = wx * vy - wy * vx
+            determinant = v_square * uw + u_square * wv - w_square * uv
+            size = u_square + v_square + w_square
+            conflict = determinant > 0.0
+            if not abs(determinant) > IN_CIRCLE_BOUND * (size * size) + UNDERFLOW:
+                conflict = _in_conflict(
+                    xy[_U2 * w], xy[_U2 * w + _U1], xy[_U2 * v], xy[_U2 * v + _U1],
+                    xy[_U2 * u], xy[_U2 * u + _U1], x, y,
+                )  # fmt: skip
+            if conflict:
+                cavity[n_cavity] = h & _ROW
+                n_cavity += _U1
+                edges[_U2 * n_edges], edges[_U2 * n_edges + _U1] = _previous(h), v
+                k = _U4 * n_edges
+                ends[k], ends[k + _U1], ends[k + _U2], ends[k + _U3] = vx, vy, v_square, wv
+                n_edges += _U1
+                h = _next(h)
+                v, vx, vy, v_square, uv = w, wx, wy, w_square, uw
+            else:
+                sides[n_sides], corners[n_sides] = h, u
+                offsets[_U2 * n_sides], offsets[_U2 * n_sides + _U1] = ux, uy
+                n_sides += _U1
+                if n_edges == _U0:
+                    break
+                n_edges -= _U1
+                u, ux, uy, u_square = v, vx, vy, v_square
+                h, v = np.uint64(edges[_U2 * n_edges]), np.uint64(edges[_U2 * n_edges + _U1])
+                k = _U4 * n_edges
+                vx, vy, v_square, uv = ends[k], ends[k + _U1], ends[k + _U2], ends[k + _U3]
+        if n_cavity >= full:
+            return p, n_rows, start
+
+        # Fill, and start the next walk from the triangle in whose sector its point lies; from any
+        # where rounding hides it.
+        cavity[n_cavity], cavity[n_cavity + _U1] = _U8 * n_rows, _U8 * n_rows + _U8
+        n_rows += _U2
+        before, here = np.uint64(cavity[n_sides - _U1]), np.uint64(cavity[0])
+        cavity[n_sides], corners[n_sides] = here, corners[0]
+        offsets[_U2 * n_sides], offsets[_U2 * n_sides + _U1] = offsets[0], offsets[1]
+        u = np.uint64(corners[0])
+        turn = offsets[0] * next_y - offsets[1] * next_x
+        start = here
+        for i in range(n_sides):
+            after, h = np.uint64(cavity[i + _U1]), np.uint64(sides[i])
+            v = np.uint64(corners[i + _U1])
+            next_turn = offsets[_U2 * i + _U2] * next_y - offsets[_U2 * i + _U3] * next_x
+            rows[here], rows[here + _U1], rows[here + _U2] = p, u, v
+            rows[here + _U4], rows[here + _U5], rows[here + _U6] = h, after + _U2, before + _U1
+            rows[h + _U4] = here
+            start = here if (turn >= 0.0) & (next_turn < 0.0) else start
+            u, turn, before, here = v, next_turn, here, after
+        p = next_p
+    return p, n_rows, start
+
+
+@kernel
+def _room(n_cavity):
+    """Return arrays for `_insert` to dig a cavity of some 16 triangles less than `n_cavity` in."""
+    return (
+        np.empty(n_cavity, np.uint32),
+        np.empty(n_cavity, np.uint32),
+        np.empty(n_cavity, np.uint32),
+        np.empty(2 * n_cavity),
+        np.empty(2 * n_cavity, np.uint32),
+        np.empty(4 * n_cavity),
+    )
+
+
+@kernel
+def _insert_all(xy, rows, n, order, repeats):
+    """Insert all points into the first triangle, in rounds; return the number of rows."""
+    infinity, n_rows, start = np.uint64(n), np.uint64(4), np.uint64(0)
+    capacity = _FIRST_CAPACITY
+    space = _room(capacity)
+    shift = 0
+    while n >> shift > 1 << _ROUND_SHIFT:
+        shift += _ROUND_SHIFT
+    p, coarse = 0, -1
+    while shift >= 0:
+        step = 1 << shift
+        while p < n:
+            p, n_rows, start = _insert(
+                xy, rows, n_rows, infinity, (p, n, step, coarse), start, order, repeats, space
+            )
+            if p < n:
+                capacity *= 2
+                space = _room(capacity)
+        coarse = step - 1
         shift -= _ROUND_SHIFT
+        p = step >> _ROUND_SHIFT
     return np.int64(n_rows)
 
 
 @kernel
-def _grown(array):
-    """Return an array of twice the length with the same beginning."""
-    result = np.empty(2 * len(array), array.dtype)
-    result[: len(array)] = array
-    return result
+def _drop_outer(rows, infinity):
+    """Move the triangles with three finite vertices to the front; return their number.
 
-
-@kernel
-def _finite_triangles(rows, infinity, order):
-    """Return the triangles with three finite vertices, in the original numbers, and neighbours."""
+    What was the twin of a half-edge of an outer triangle becomes a number beyond all of them.
+    """
     n_rows = len(rows) // 8
     outer = np.empty(n_rows, np.bool_)
-    m = 0
+    n_finite = 0
     for t in range(n_rows):
         outer[t] = (
             (rows[8 * t] == infinity)
             | (rows[8 * t + 1] == infinity)
             | (rows[8 * t + 2] == infinity)
         )
-        m += not outer[t]
-    # Finite triangles from the end take the rows of outer ones before row m.
-    t = n_rows
-    for s in range(m):
-        if outer[s]:
-            for k in range(3):
-                if rows[8 * s + k] == infinity:
-                    rows[rows[8 * s + 4 + k] + 4] = 8 * n_rows
-            t -= 1
-            while outer[t]:
-                t -= 1
-            for k in range(3):
-                rows[8 * s + k] = rows[8 * t + k]
-                twin = rows[8 * t + 4 + k]
-                rows[8 * s + 4 + k] = twin
-                if twin < 8 * n_rows:
-                    rows[twin + 4] = 8 * s + k
-    triangles = np.empty((m, 3), np.int32)
-    neighbors = np.empty((m, 3), np.int32)
-    for t in range(m):
+        n_finite += not outer[t]
+    beyond = 8 * n_rows
+    last = n_rows
+    for t in range(n_finite):
+        if not outer[t]:
+            continue
+        for h in range(8 * t, 8 * t + 3):
+            if rows[h] == infinity:
+                rows[rows[h + 4] + 4] = beyond
+        last -= 1
+        while outer[last]:
+            last -= 1
         for k in range(3):
-            triangles[t, k] = order[rows[8 * t + k]]
+            rows[8 * t + k] = rows[8 * last + k]
+            twin = rows[8 * last + 4 + k]
+            rows[8 * t + 4 + k] = twin
+            if twin < beyond:
+                rows[twin + 4] = 8 * t + k
+    return n_finite
+
+
+@kernel
+def _arrays(rows, m, xy, order):
+    """Return triangles (in the original numbers), neighbours, ranks; and if these are safe."""
+    triangles, neighbors = np.empty((m, 3), np.int32), np.empty((m, 3), np.int32)
+    ranks = np.empty(m, np.uint8)
+    safe = True
+    for t in range(m):
+        u, v, w = np.uint64(rows[8 * t]), np.uint64(rows[8 * t + 1]), np.uint64(rows[8 * t + 2])
+        a, b, c = np.int32(order[u]), np.int32(order[v]), np.int32(order[w])
+        triangles[t, 0], triangles[t, 1], triangles[t, 2] = a, b, c
+        for k in range(3):
             neighbor = np.int32(rows[8 * t + 4 + k] >> 3)
             neighbors[t, k] = neighbor if neighbor < m else -1
-    return triangles, neighbors
+        ux, uy, vx, vy = xy[_U2 * u], xy[_U2 * u + _U1], xy[_U2 * v], xy[_U2 * v + _U1]
+        wx, wy = xy[_U2 * w], xy[_U2 * w + _U1]
+        across_a = (vx - wx) * (vx - wx) + (vy - wy) * (vy - wy)
+        across_b = (wx - ux) * (wx - ux) + (wy - uy) * (wy - uy)
+        across_c = (ux - vx) * (ux - vx) + (uy - vy) * (uy - vy)
+        safe &= is_safe(across_a, across_b, across_c)
+        ranks[t] = rank(a, b, c, across_a, across_b, across_c)
+    return triangles, neighbors, ranks, safe

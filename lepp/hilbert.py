@@ -2,15 +2,40 @@
 
 import numpy as np
 
-from lepp.jit import inlined, kernel
+from lepp.jit import kernel
 
 _BITS = 16  # of each coordinate; a key, the place along the curve, has twice as many
 _CELLS = 2.0**_BITS - 2.0**-20  # so that the last point is in the last cell, not beyond
 _DIGIT_BITS = 11
 # Longer runs of points in one cell are ordered again, in the box of their own.
 _LONGEST_RUN = 16
-_ALL = np.uint32(0xFFFF)
 _HALF_WORD = np.uint64(32)
+
+
+def _hilbert_steps() -> np.ndarray:
+    """Return four levels of the curve at once, as (4 * 16 * 16,) uint16.
+
+    Indexed by ``256 * state + 16 * x + y``, with 4 bits of x and y; holds 8 bits of the key and,
+    times 256, the state after them. Bit 0 of a state says that x and y change places, bit 1 that
+    both are mirrored; so the curve turns from one quarter of a square to the next.
+    """
+    steps = np.empty((4, 16, 16), np.uint16)
+    for first_state, x, y in np.ndindex(4, 16, 16):
+        state, key = first_state, 0
+        for level in (3, 2, 1, 0):
+            right, up = (x >> level) & 1, (y >> level) & 1
+            if state & 1:
+                right, up = up, right
+            if state & 2:
+                right, up = 1 - right, 1 - up
+            key = 4 * key + ((3 * right) ^ up)
+            if not up:
+                state ^= 3 if right else 1
+        steps[first_state, x, y] = 256 * state + key
+    return steps.ravel()
+
+
+_STEPS = _hilbert_steps()
 
 
 @kernel
@@ -73,64 +98,29 @@ def _keys(points):
     cells = _CELLS / extent if extent > 0.0 else 0.0
     keys = np.empty(len(points), np.uint32)
     for i in range(len(points)):
-        x = np.uint32(np.int32((unit * points[i, 0] - x_low) * cells))
-        y = np.uint32(np.int32((unit * points[i, 1] - y_low) * cells))
+        x = np.int32((unit * points[i, 0] - x_low) * cells)
+        y = np.int32((unit * points[i, 1] - y_low) * cells)
         keys[i] = hilbert_key(x, y)
     return keys
 
 
-@inlined
+@kernel
 def hilbert_key(x, y):
     """Return the place of a cell along the Hilbert curve through 2**16 by 2**16 cells.
 
-    All bits at once: what the curve does to the square at one level is a linear map over two bits,
-    and the maps of all levels are composed by a parallel prefix scan (the method of "2D Hilbert
-    curves in O(1)", rawrunprotected.wordpress.com, which is in the public domain).
-
     Parameters
     ----------
-    x, y : uint32
+    x, y : int
         Column and row, below 2**16.
-
-    Returns
-    -------
-    uint32
     """
-    one = np.uint32(1)
-    a = x ^ y
-    b = _ALL ^ a
-    c = _ALL ^ (x | y)
-    d = x & (y ^ _ALL)
-    map_a = a | (b >> one)
-    map_b = (a >> one) ^ a
-    map_c = ((c >> one) ^ (b & (d >> one))) ^ c
-    map_d = ((a & (c >> one)) ^ (d >> one)) ^ d
-    map_a, map_b, map_c, map_d = _compose(map_a, map_b, map_c, map_d, np.uint32(2))
-    map_a, map_b, map_c, map_d = _compose(map_a, map_b, map_c, map_d, np.uint32(4))
-    map_a, map_b, map_c, map_d = _compose(map_a, map_b, map_c, map_d, np.uint32(8))
-    low = x ^ y
-    high = (map_d ^ (map_d >> one)) | (_ALL ^ (low | (map_c ^ (map_c >> one))))
-    return (_spread(high) << one) | _spread(low)
-
-
-@inlined
-def _compose(a, b, c, d, levels):
-    """Compose the map at each bit with that of as many levels above."""
-    return (
-        (a & (a >> levels)) ^ (b & (b >> levels)),
-        (a & (b >> levels)) ^ (b & ((a ^ b) >> levels)),
-        c ^ ((a & (c >> levels)) ^ (b & (d >> levels))),
-        d ^ ((b & (c >> levels)) ^ ((a ^ b) & (d >> levels))),
-    )
-
-
-@inlined
-def _spread(bits):
-    """Move bit k of 16 to bit 2 k."""
-    bits = (bits | (bits << np.uint32(8))) & np.uint32(0x00FF00FF)
-    bits = (bits | (bits << np.uint32(4))) & np.uint32(0x0F0F0F0F)
-    bits = (bits | (bits << np.uint32(2))) & np.uint32(0x33333333)
-    return (bits | (bits << np.uint32(1))) & np.uint32(0x55555555)
+    step = _STEPS[((x >> 12) << 4) | (y >> 12)]
+    key = step & 0xFF
+    step = _STEPS[(step & 0x300) | (((x >> 8) & 15) << 4) | ((y >> 8) & 15)]
+    key = (key << 8) | (step & 0xFF)
+    step = _STEPS[(step & 0x300) | (((x >> 4) & 15) << 4) | ((y >> 4) & 15)]
+    key = (key << 8) | (step & 0xFF)
+    step = _STEPS[(step & 0x300) | ((x & 15) << 4) | (y & 15)]
+    return (key << 8) | (step & 0xFF)
 
 
 @kernel
