@@ -24,6 +24,11 @@ _LINE_SHARE = 0.1
 _LINE_SECONDS = 30.0
 
 
+def _load_report() -> None:
+    """Import what writes the report, while the workers compute: it takes a second."""
+    import reports.page  # noqa: F401
+
+
 def _plan(unfinished: Sequence[Task], n_tasks: int) -> str:
     points = sum(task.n_points for task in unfinished)
     there = n_tasks - len(unfinished)
@@ -57,6 +62,7 @@ class TerminalProgress:
         self._bars.console.print(_plan(unfinished, n_tasks), highlight=False)
         total = sum(task.n_points for task in unfinished)
         self._bar = self._bars.add_task("Computing", total=total)
+        _load_report()
 
     def advance(self, outcome: Outcome) -> None:
         """Move the bar by the points of a task."""
@@ -77,6 +83,7 @@ class PlainProgress:
         self._done = self._printed = 0
         self._start = self._last = monotonic()
         click.echo(_plan(unfinished, n_tasks))
+        _load_report()
 
     def advance(self, outcome: Outcome) -> None:
         """Count the points of a task; print a line if it is time."""

@@ -4,13 +4,14 @@ import logging
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from threading import Thread
 from typing import Any
 
 import dask
 import distributed
 import psutil
 from dask.system import CPU_COUNT
-from distributed import Client
+from distributed import Client, LocalCluster
 from distributed.system import MEMORY_LIMIT
 from distributed.versions import VersionMismatchWarning
 
@@ -21,8 +22,8 @@ from study.design import Design
 # Few functions of distributed are annotated.
 _distributed: Any = distributed
 
-#: Most memory that a task takes at a time, measured on Delaunay and incremental triangulations.
-BYTES_PER_POINT = 400
+#: Memory that a task takes at a time: up to 155 measured, for Delaunay; the rest is a margin.
+BYTES_PER_POINT = 200
 
 CONNECT_SECONDS = 10
 #: Workers of a cluster may still be starting when its scheduler answers.
@@ -41,9 +42,10 @@ _LOCAL_SETTINGS = {
     # The sampling profiler takes its share of every worker's core.
     "distributed.worker.profile.enabled": False,
     # Dask has the C library hand freed memory back at once, so that each task's arrays would be
-    # mapped and cleared anew; here one task's arrays are as large as the last one's.
-    "distributed.nanny.pre-spawn-environ.MALLOC_TRIM_THRESHOLD_": 1 << 30,
-    "distributed.nanny.pre-spawn-environ.MALLOC_MMAP_THRESHOLD_": 1 << 30,
+    # mapped and cleared anew; here one task's arrays are as large as the last one's. The second
+    # is the most that the library takes.
+    "distributed.nanny.pre-spawn-environ.MALLOC_TRIM_THRESHOLD_": 1 << 28,
+    "distributed.nanny.pre-spawn-environ.MALLOC_MMAP_THRESHOLD_": 1 << 25,
 }
 
 
@@ -128,8 +130,18 @@ def _local(workers: int) -> Iterator[Client]:
         )
     except (OSError, RuntimeError, TimeoutError) as error:
         raise InputError(f"The workers did not start: {error}.") from error
-    with cluster, _distributed.Client(cluster) as client:
+    client = _distributed.Client(cluster)
+    try:
         yield client
+    finally:
+        # The workers take a while to end, in which the report can be written; Python waits for
+        # this thread before it exits.
+        Thread(target=_close, args=(client, cluster)).start()
+
+
+def _close(client: Any, cluster: LocalCluster) -> None:  # noqa: ANN401 - as `_distributed`
+    client.close()
+    cluster.close()
 
 
 @contextmanager

@@ -3,7 +3,6 @@
 from collections import Counter, deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import count
 from pathlib import Path
 from time import monotonic, perf_counter, sleep
 from typing import Any, Protocol, cast
@@ -48,7 +47,10 @@ class Listener(Protocol):
     """What follows the progress of a run."""
 
     def begin(self, unfinished: Sequence[Task], n_tasks: int) -> None:
-        """Hear of the tasks to compute, and of the number of all tasks of the design."""
+        """Hear of the tasks to compute, and of the number of all tasks of the design.
+
+        The workers have their first tasks by then, so this may take a second.
+        """
 
     def advance(self, outcome: Outcome) -> None:
         """Hear of a task that was computed, or has failed for the last time."""
@@ -116,7 +118,6 @@ def run(
     with Store(directory, design) as store:
         if store.unfinished:
             with connect(design, workers, scheduler) as client:
-                listener.begin(store.unfinished, design.n_tasks)
                 for outcome in compute(client, store, listener):
                     listener.advance(outcome)
                     n_computed += 1
@@ -139,7 +140,7 @@ def compute(client: Client, store: Store, listener: Listener) -> Iterator[Outcom
     store : Store
         Gives the tasks and takes their outcomes.
     listener : Listener
-        Hears if the workers are gone.
+        Hears of the beginning, and if the workers are gone.
 
     Yields
     ------
@@ -147,11 +148,11 @@ def compute(client: Client, store: Store, listener: Listener) -> Iterator[Outcom
         As they are kept; of failures the last.
     """
     n_threads, counted = _n_threads(client), monotonic()
-    batches = _batches(store.unfinished, max(n_threads, 1))
+    unfinished = store.unfinished
+    batches = _batches(unfinished, max(n_threads, 1))
     again: deque[Task] = deque()
     attempts: Counter[Task] = Counter()
     under_way: dict[Future, Batch] = {}
-    numbers = count()
     # Typed Any because this class of distributed has no annotations.
     arrivals: Any = cast(Any, as_completed)(loop=client.loop, with_results=True, raise_errors=False)
     while True:
@@ -159,13 +160,13 @@ def compute(client: Client, store: Store, listener: Listener) -> Iterator[Outcom
             batch = [again.popleft()] if again else next(batches, None)
             if batch is None:
                 break
-            # The scheduler serves low numbers first: what is tried again does not wait.
-            key = f"lepp-{next(numbers)}-{attempts[batch[0]]}"
-            future = client.submit(
-                perform_batch, batch, store.design, key=key, priority=attempts[batch[0]]
-            )
+            # Not pure: a name of its own, whatever else runs at this scheduler.
+            future = client.submit(perform_batch, batch, store.design, pure=False)
             under_way[future] = batch
             arrivals.add(future)
+        if unfinished:
+            listener.begin(unfinished, store.design.n_tasks)
+            unfinished = []
         if not under_way:
             return
         arrived = arrivals.next_batch(block=False)

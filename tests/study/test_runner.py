@@ -140,7 +140,8 @@ def test_two_workers_one_of_them_killed_leave_the_same_bytes(tmp_path, whole):
     # Nothing is left to do, so no cluster is started.
     again = run(tmp_path, DESIGN, scheduler="tcp://127.0.0.1:1", listener=heard)
     assert again.n_computed == again.n_threads == 0
-    assert worker_processes() == []
+    _, alive = psutil.wait_procs(worker_processes(), timeout=10)
+    assert alive == []
 
 
 CLIENT = """
