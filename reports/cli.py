@@ -220,3 +220,68 @@ def _print_summary(summary: Summary, run_seconds: float, report_seconds: float) 
             click.echo(f"  {' '.join(map(str, outcome.task))}: {outcome.error}")
         if len(summary.failures) > 5:
             click.echo(f"  and {len(summary.failures) - 5:,} more (column error of the results)")
+
+
+@main.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option(
+    "--html",
+    metavar="OUT",
+    type=click.Path(path_type=Path),
+    help="Write a page with the mesh drawn.",
+)
+@click.option(
+    "--json",
+    "json_file",
+    metavar="[OUT]",
+    is_flag=False,
+    flag_value="-",
+    type=click.Path(path_type=Path, allow_dash=True),
+    help="Write the numbers as JSON, instead of the text where no file is named.",
+)
+@click.option(
+    "--output",
+    metavar="OUT",
+    type=click.Path(path_type=Path),
+    help="Write the mesh with its paths as data of the cells (.vtu, .vtk, .xdmf or .msh).",
+)
+@click.option("--split-quads", is_flag=True, help="Split each quad into two triangles.")
+@click.option(
+    "--merge-points/--keep-points",
+    default=None,
+    help="Join points with the same coordinates, or leave the mesh cut there.",
+)
+@click.option(
+    "--drop-duplicates",
+    is_flag=True,
+    help="Leave out triangles that repeat another or have the same point twice.",
+)
+@click.option(
+    "--ignore-volumes", is_flag=True, help="Take the triangles of a mesh that has tetrahedra too."
+)
+def mesh(
+    file: Path,
+    html: Path | None,
+    json_file: Path | None,
+    output: Path | None,
+    split_quads: bool,
+    merge_points: bool | None,
+    drop_duplicates: bool,
+    ignore_volumes: bool,
+) -> None:
+    """Say how far one refinement of the mesh in FILE spreads.
+
+    FILE is a mesh of triangles in any format that meshio reads: VTK, VTU, Gmsh, OBJ, PLY, STL, OFF,
+    Medit, Abaqus, XDMF and more; in the plane, or a surface in space.
+    """
+    from reports.mesh import answer
+    from study.mesh.reading import ReadOptions
+
+    options = ReadOptions(
+        split_quads=split_quads,
+        ignore_volumes=ignore_volumes,
+        drop_duplicates=drop_duplicates,
+        repeated_points={None: "refuse", True: "merge", False: "keep"}[merge_points],
+    )
+    for line in answer(file, options, html=html, json_file=json_file, output=output):
+        click.echo(line, err=json_file == Path("-"))

@@ -4,11 +4,7 @@ import importlib.util
 import os
 import tempfile
 from functools import cache
-from importlib import resources
 from pathlib import Path
-
-import jinja2
-from markupsafe import Markup
 
 from reports import sections
 from reports.blocks import FigureBlock, Section
@@ -47,25 +43,22 @@ def write_report(directory: Path) -> Path:
 def render(evidence: Evidence) -> str:
     """Make the page's HTML."""
     parts = sections.all_sections(evidence)
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("reports"),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    return environment.get_template("page.html.j2").render(
-        title=sections.TITLE,
-        description=sections.description(evidence),
-        alarms=sections.alarms(evidence),
-        colophon=sections.COLOPHON,
-        sections=parts,
-        views=evidence.views,
-        first=evidence.views[0].key,
-        switches=_switches(evidence),
-        static=_static,
-        data=encode(page_data(evidence, parts)),
-        plotly=_plotly(),
+    return (
+        environment()
+        .get_template("page.html.j2")
+        .render(
+            title=sections.TITLE,
+            description=sections.description(evidence),
+            alarms=sections.alarms(evidence),
+            colophon=sections.COLOPHON,
+            sections=parts,
+            views=evidence.views,
+            first=evidence.views[0].key,
+            switches=_switches(evidence),
+            static=static,
+            data=encode(page_data(evidence, parts)),
+            plotly=_plotly(),
+        )
     )
 
 
@@ -119,13 +112,6 @@ def _switch(name: str, title: str, values: tuple[str, ...], names: dict[str, str
         short, _, rest = names[value].partition(" ")
         options.append({"value": value, "short": short, "rest": rest})
     return {"name": name, "title": title, "options": options}
-
-
-def _static(*names: str) -> Markup:
-    """Text of style sheets or scripts, safe to stand inside their element."""
-    folder = resources.files("reports") / "static"
-    text = "".join((folder / name).read_text(encoding="utf-8") for name in names)
-    return Markup(text.replace("</", "<\\/"))
 
 
 @cache

@@ -1,0 +1,1 @@
+"""Meshes from files: reading, what their paths say, writing that back."""
