@@ -7,6 +7,7 @@ from functools import cache
 from pathlib import Path
 
 from reports import sections
+from reports.assets import environment, static
 from reports.blocks import FigureBlock, Section
 from reports.datablock import ColumnIndex, compress, encode, table_data
 from reports.evidence import Evidence
