@@ -158,7 +158,7 @@ def _subdivide(
     """
     # The lists of points are on three stacks, one after the other in x, y and ident. A triangle's
     # list is on top of one of them, where the first of its parts keeps its points; the other parts
-    # put theirs on top of the other two. The first stack holds the lists of all roots to begin with.
+    # put theirs on top of the other two. The first stack begins with the lists of all roots.
     n_roots = len(starts) - 1
     second = starts[n_roots] + room
     third = second + room

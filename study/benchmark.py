@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from statistics import median
 from time import process_time
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import scipy.spatial
 
@@ -55,17 +55,17 @@ def run(n_points: int, repeats: int) -> list[dict[str, str]]:
 
 def _turn(points: Points) -> dict[str, float]:
     """Measure everything once, in seconds."""
-    seconds = {_YARDSTICK: _time(lambda: scipy.spatial.Delaunay(points))[0]}
+    seconds = {_YARDSTICK: _time(scipy.spatial.Delaunay, points)[0]}
     for method in lepp.METHODS:
-        triangulating, triangulation = _time(lambda m=method: lepp.triangulate(points, m))
-        following, _ = _time(lambda t=triangulation: lepp.lepp_sizes(t))
+        triangulating, triangulation = _time(lepp.triangulate, points, method)
+        following, _ = _time(lepp.lepp_sizes, triangulation)
         seconds[f"{method}: triangulation"] = triangulating
         seconds[f"{method}: LEPP sizes"] = following
         seconds[f"{method}: both"] = triangulating + following
     return seconds
 
 
-def _time(work: Callable[[], T]) -> tuple[float, T]:
+def _time(work: Callable[..., T], *arguments: Any) -> tuple[float, T]:
     start = process_time()
-    result = work()
+    result = work(*arguments)
     return process_time() - start, result
