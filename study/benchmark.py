@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from statistics import median
 from time import process_time
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import scipy.spatial
 
@@ -65,7 +65,7 @@ def _turn(points: Points) -> dict[str, float]:
     return seconds
 
 
-def _time(work: Callable[..., T], *arguments: Any) -> tuple[float, T]:
+def _time(work: Callable[..., T], *arguments: object) -> tuple[float, T]:
     start = process_time()
     result = work(*arguments)
     return process_time() - start, result
