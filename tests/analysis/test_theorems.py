@@ -71,7 +71,11 @@ def test_bounds_need_every_triangulation():
     results, *others = frames(asked)
     results.loc[0, "mean_lepp"] = 4.01
     results.loc[7, "sd_lepp"] = 2.46
-    frame = analyse(results, *others, asked)["theorem_2"].frame
+    tables = analyse(results, *others, asked)
+    stated = tables["statements"].frame.set_index("statement")["holds"]
+    assert stated["The mean LEPP size is between 2 and 4"] == "no"
+    assert stated["The standard deviation is at most sqrt 6"] == "no"
+    frame = tables["theorem_2"].frame
     assert frame["bounds"].tolist() == ["no", "no", "yes", "yes"]
     assert frame["mean_inside"].tolist() == [5, 6, 6, 6]
     assert frame["sd_inside"].tolist() == [6, 5, 6, 6]
