@@ -163,7 +163,8 @@ def panels(
 
 def _place(spec: Spec, part: Panel, number: str, x: list[float], y: list[float]) -> None:
     layout = spec["layout"]
-    layout[f"xaxis{number}"] = part.xaxis | {"domain": x, "anchor": f"y{number}"}
+    few = {"nticks": 4, "tickangle": 0} if x[1] - x[0] < 0.9 else {}  # narrow on a telephone
+    layout[f"xaxis{number}"] = part.xaxis | few | {"domain": x, "anchor": f"y{number}"}
     layout[f"yaxis{number}"] = part.yaxis | {"domain": y, "anchor": f"x{number}"}
     spec["data"] += [
         trace | ({"xaxis": f"x{number}", "yaxis": f"y{number}"} if number else {})

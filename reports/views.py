@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 METHOD_NAMES = {"incremental": "Incremental", "delaunay": "Delaunay"}
+_METHOD_WORDS = {"incremental": "incremental", "delaunay": "Delaunay"}
 DISTRIBUTION_NAMES = {
     "uniform": "Uniform",
     "normal": "Normal",
@@ -29,16 +30,31 @@ class View:
         return {"method": self.method, "distribution": self.distribution}
 
     @property
-    def distribution_name(self) -> str:
+    def distribution_word(self) -> str:
         """The distribution as a word in a sentence."""
-        return distribution_name(self.distribution).lower()
+        return distribution_word(self.distribution)
 
     @property
     def method_name(self) -> str:
         """The method as a heading has it."""
         return METHOD_NAMES[self.method]
 
+    @property
+    def method_word(self) -> str:
+        """The method as a word in a sentence."""
+        return method_word(self.method)
+
+
+def method_word(method: str) -> str:
+    """Name of a method as a word in a sentence."""
+    return _METHOD_WORDS[method]
+
 
 def distribution_name(distribution: str) -> str:
     """Name of a distribution as a heading has it."""
     return DISTRIBUTION_NAMES[distribution]
+
+
+def distribution_word(distribution: str) -> str:
+    """Name of a distribution as a word in a sentence."""
+    return DISTRIBUTION_NAMES[distribution].lower()

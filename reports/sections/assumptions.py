@@ -63,9 +63,9 @@ def _assumptions(evidence: Evidence, view: View) -> list[str] | None:
         below = int((shapiro["p"] < 0.05).sum())
         rejected = int((shapiro["normal"] == "rejected").sum())
         said.append(
-            f"Shapiro-Wilk gives p below 0.05 in {below} of {count(len(shapiro), 'group')}; one in "
-            f"twenty would by chance. After Holm's correction {none_or(rejected)} "
-            f"{'is' if rejected == 1 else 'are'} rejected as normal."
+            f"Shapiro-Wilk gives p below 0.05 in {none_or(below)} of "
+            f"{count(len(shapiro), 'group')}; one in twenty would by chance. After Holm's "
+            f"correction {none_or(rejected)} {'is' if rejected == 1 else 'are'} rejected as normal."
         )
     return said or None
 

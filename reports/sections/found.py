@@ -95,7 +95,8 @@ def _tiles(evidence: Evidence, view: View) -> list[Tile] | None:
         )
     verdicts = evidence.rows("reproduction_summary", method=view.method)
     compared = verdicts[["agrees", "close", "differs"]].sum() if len(verdicts) else None
-    if compared is not None and compared.sum():
+    # Of other triangulations the paper prints nothing.
+    if view.method == "incremental" and compared is not None and compared.sum():
         tiles.append(
             Tile(
                 f"{compared['agrees'] + compared['close']} of {compared.sum()}",
@@ -133,8 +134,8 @@ def _spread(evidence: Evidence, view: View) -> str | None:
         return None
     return (
         f"A refinement that starts at a random triangle of {group['n_points']:,} "
-        f"{view.distribution_name} points, triangulated by the {view.method} method, runs through "
-        f"{show(group['mean_lepp'], 'fixed2')} triangles on average. In "
+        f"{view.distribution_word} points, triangulated by the {view.method_word} method, runs "
+        f"through {show(group['mean_lepp'], 'fixed2')} triangles on average. In "
         f"{count(overview['triangulations'], 'triangulation')} with {large(overview['triangles'])} "
         f"triangles, no path was longer than {overview['max_lepp']}."
     )
@@ -201,9 +202,9 @@ def _figure_1(evidence: Evidence) -> Drawing:
         sizes = triangles["lepp_size"]
         edges = triangles[["terminal_a", "terminal_b"]].drop_duplicates()
         return (
-            f"{len(triangles)} triangles of {N_POINTS} {view.distribution_name} points by the "
-            f"{view.method} method. Their paths are {show(sizes.mean(), 'fixed2')} triangles long "
-            f"on average and {sizes.max()} at most, and end at "
+            f"{len(triangles)} triangles of {N_POINTS} {view.distribution_word} points by the "
+            f"{view.method_word} method. Their paths are {show(sizes.mean(), 'fixed2')} triangles "
+            f"long on average and {sizes.max()} at most, and end at "
             f"{count(len(edges), 'terminal edge')}."
         )
 
@@ -240,6 +241,6 @@ def _statements(evidence: Evidence, view: View) -> list[str] | None:
         if key in holds
     ]
     return [
-        f"Of {len(rows)} statements of the paper, for {view.distribution_name} points and the "
-        f"{view.method} method: {listed(counted)}."
+        f"Of {len(rows)} statements of the paper, for {view.distribution_word} points and the "
+        f"{view.method_word} method: {listed(counted)}."
     ]

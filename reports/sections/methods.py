@@ -7,7 +7,7 @@ from reports.blocks import FigureBlock, Prose, Section, Subsection, TableBlock
 from reports.evidence import Evidence
 from reports.numbers import listed, show, significant
 from reports.style import Spec
-from reports.views import METHOD_NAMES, View, distribution_name
+from reports.views import View, distribution_word, method_word
 
 
 def section(evidence: Evidence) -> Section:
@@ -85,14 +85,10 @@ def _same_points(evidence: Evidence, distribution: str) -> list[str] | None:
     last = rows[rows["n_points"] == rows["n_points"].max()].set_index("quantity")
     mean, p = last.loc["mean LEPP"], last.loc["share p of type C"]
     words = [
-        f"{show(mean[f'mean_{k}'], 'fixed4')} ({METHOD_NAMES[mean[f'method_{k}']].lower()})"
-        for k in (1, 2)
+        f"{show(mean[f'mean_{k}'], 'fixed4')} ({method_word(mean[f'method_{k}'])})" for k in (1, 2)
     ]
-    shares = [
-        f"{show(p[f'mean_{k}'], 'fixed4')} ({METHOD_NAMES[p[f'method_{k}']].lower()})"
-        for k in (1, 2)
-    ]
-    below = [METHOD_NAMES[p[f"method_{k}"]].lower() for k in (1, 2) if p[f"mean_{k}"] < 1 / 3]
+    shares = [f"{show(p[f'mean_{k}'], 'fixed4')} ({method_word(p[f'method_{k}'])})" for k in (1, 2)]
+    below = [method_word(p[f"method_{k}"]) for k in (1, 2) if p[f"mean_{k}"] < 1 / 3]
     premise = (
         f" That of the {listed(below)} triangulations is below the 1/3 that Theorem 2 supposes."
         if below
@@ -102,7 +98,7 @@ def _same_points(evidence: Evidence, distribution: str) -> list[str] | None:
         f"The paper inserts the points as they come and never flips an edge (incremental); most "
         "programs make Delaunay triangulations, whose triangles are as far from thin as the points "
         "allow. "
-        f"On the same {mean['n_points']:,} {distribution_name(distribution).lower()} points the "
+        f"On the same {mean['n_points']:,} {distribution_word(distribution)} points the "
         f"mean LEPP sizes are {listed(words)}, and the shares p of type C neighbours "
         f"{listed(shares)}."
         f"{premise}"
@@ -110,8 +106,7 @@ def _same_points(evidence: Evidence, distribution: str) -> list[str] | None:
     growth = evidence.one("growth", distribution=distribution)
     if growth is not None:
         slopes = [
-            f"{significant(growth[f'slope_{k}'], 2)} "
-            f"({METHOD_NAMES[growth[f'method_{k}']].lower()})"
+            f"{significant(growth[f'slope_{k}'], 2)} ({method_word(growth[f'method_{k}'])})"
             for k in (1, 2)
         ]
         same = growth["low"] <= 0 <= growth["high"]
@@ -145,7 +140,7 @@ def _growth(evidence: Evidence) -> FigureBlock:
                 return None
             first, last = groups.iloc[0], groups.iloc[-1]
             words.append(
-                f"{view.method} means go from {show(first['mean_lepp'], 'fixed4')} at "
+                f"{view.method_word} means go from {show(first['mean_lepp'], 'fixed4')} at "
                 f"{first['n_points']:,} to {show(last['mean_lepp'], 'fixed4')} at "
                 f"{last['n_points']:,}"
             )
@@ -227,9 +222,9 @@ def _rates(evidence: Evidence) -> FigureBlock:
             if len(steps) < 2:
                 return None
             words.append(
-                f"{show(steps['rate'].iloc[0], 'percent1')} of the {view.method} paths that reach "
-                f"size 2 end there, and {show(steps['rate'].iloc[1], 'percent1')} of those that "
-                "reach size 5"
+                f"{show(steps['rate'].iloc[0], 'percent1')} of the {view.method_word} paths that "
+                f"reach size 2 end there, and {show(steps['rate'].iloc[1], 'percent1')} of those "
+                "that reach size 5"
             )
         return f"{'; '.join(words)}."
 
@@ -239,7 +234,13 @@ def _rates(evidence: Evidence) -> FigureBlock:
         specs=_by_distribution(evidence, draw),
         alternatives=_by_distribution(evidence, say),
         reading="Theorem 1 takes each line to be level.",
-        data=(TableBlock("termination", "Data: termination rates", follows=("distribution",)),),
+        data=(
+            TableBlock(
+                "termination",
+                "Data: termination rates of all triangulations",
+                follows=("distribution",),
+            ),
+        ),
     )
 
 
@@ -275,7 +276,7 @@ def _sizes(evidence: Evidence) -> FigureBlock:
                 return None
             long = rows.loc[rows["lepp_size"] >= 8, "share"].sum()
             words.append(
-                f"{show(long, 'percent2')} of the {view.method} triangles have a LEPP of 8 or "
+                f"{show(long, 'percent2')} of the {view.method_word} triangles have a LEPP of 8 or "
                 f"more, and the longest is {rows['lepp_size'].max()}"
             )
         return f"{'; '.join(words)}."
@@ -286,5 +287,7 @@ def _sizes(evidence: Evidence) -> FigureBlock:
         specs=_by_distribution(evidence, draw),
         alternatives=_by_distribution(evidence, say),
         reading="The vertical scale is logarithmic.",
-        data=(TableBlock("law", "Data: LEPP sizes", follows=("distribution",)),),
+        data=(
+            TableBlock("law", "Data: LEPP sizes of all triangulations", follows=("distribution",)),
+        ),
     )

@@ -5,7 +5,7 @@ from itertools import pairwise
 from reports.blocks import Facts, Section, Subsection, TableBlock, common
 from reports.evidence import Evidence
 from reports.numbers import count, listed
-from reports.views import METHOD_NAMES, distribution_name
+from reports.views import distribution_word, method_word
 
 
 def section(evidence: Evidence) -> Section:
@@ -21,8 +21,8 @@ def section(evidence: Evidence) -> Section:
 def _design(evidence: Evidence) -> Facts:
     design = evidence.design
     facts = [
-        ("Triangulation", listed([METHOD_NAMES[name].lower() for name in design.methods])),
-        ("Distributions", listed([distribution_name(d).lower() for d in design.distributions])),
+        ("Triangulation", listed([method_word(name) for name in design.methods])),
+        ("Distributions", listed([distribution_word(d) for d in design.distributions])),
         ("Numbers of points", _sizes(design.sizes)),
         ("Repetitions", f"{design.repetitions:,} point sets for each distribution and size"),
         ("Seed", str(design.seed)),

@@ -87,7 +87,7 @@ def _uniformity(evidence: Evidence) -> FigureBlock:
             else f"the p-values of {listed(names)} are less even than chance would have them "
             f"(p {listed([show(p, 'p') for p in odd['uniform_p']])})"
         )
-        return f"For {view.distribution_name} points, {found}."
+        return f"For {view.distribution_word} points, {found}."
 
     return FigureBlock(
         id="figure-uniformity",

@@ -78,7 +78,7 @@ def _fits(evidence: Evidence, view: View) -> list[str] | None:
     if not four.empty:
         top = four.loc[four["adj_r2"].idxmax()]
         said.append(
-            f"Of the paper's four models the {top['model']} one fits the {view.distribution_name} "
+            f"Of the paper's four models the {top['model']} one fits the {view.distribution_word} "
             f"points best, with an adjusted R² of {show(top['adj_r2'], 'fixed3')}."
         )
     winners = set(names.values())
@@ -177,14 +177,20 @@ def _figure_7(evidence: Evidence) -> FigureBlock:
 
     def say(view: View) -> str | None:
         limits = evidence.rows("limits", view, fitting=_LEAST_SQUARES)
-        if limits.empty:
+        far = evidence.rows("projections", view, fitting=_LEAST_SQUARES)
+        if limits.empty or far.empty:
             return None
+        far = far[far["n_points"] == far["n_points"].max()].set_index("model")
         words = [
-            f"the {row.model} one {row.limit}"
-            + (f" of {show(row.value, 'fixed4')}" if row.limit == "tends to a limit" else "")
+            f"the {row.model} one {row.limit.replace('undecided', 'stays undecided')} "
+            f"({show(far.at[row.model, 'prediction'], 'g4')} there"
+            + (f", {show(row.value, 'fixed4')} in the end)" if row.value == row.value else ")")
             for row in limits.itertuples()
         ]
-        return f"As the number of points grows without end, {listed(words)}."
+        return (
+            f"Far beyond the data, drawn up to {ten_to(int(np.log10(far['n_points'].iloc[0])))} "
+            f"points: {listed(words)}."
+        )
 
     return FigureBlock(
         id="figure-7",

@@ -86,7 +86,7 @@ def _anova(evidence: Evidence, view: View) -> list[str] | None:
         if not differ.any()
         else "The tests disagree on whether the mean LEPP size depends on the number of points"
     )
-    said = [f"{verdict}, for {view.distribution_name} points; p by test: {tests}."]
+    said = [f"{verdict}, for {view.distribution_word} points; p by test: {tests}."]
     effect = evidence.one("anova", view, effect="omega squared")
     groups = evidence.rows("groups", view)["mean_lepp"].dropna()
     if effect is not None and len(groups) > 1:
@@ -172,7 +172,7 @@ def _bounds(evidence: Evidence, view: View) -> list[str] | None:
             "every group" if rejected == len(rows) else f"{rejected} of {count(len(rows), 'group')}"
         )
         said.append(
-            f"In {where} of {view.distribution_name} points the mean is significantly {side} "
+            f"In {where} of {view.distribution_word} points the mean is significantly {side} "
             f"{bound}; the largest p is {show(weakest, 'log10p')}, corrected for all tests."
         )
     rows = evidence.rows("bounds", view, bound=4)

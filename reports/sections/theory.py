@@ -76,7 +76,7 @@ def _premise(evidence: Evidence, view: View) -> list[str] | None:
     )
     return [
         "A path ends at a neighbour of type C: one whose own longest edge is the edge that is "
-        f"crossed. At {p['n_points']:,} {view.distribution_name} points the share of such "
+        f"crossed. At {p['n_points']:,} {view.distribution_word} points the share of such "
         f"neighbours is p\u00a0=\u00a0{show(p['p_type_c'], 'fixed4')}, {premise}. {outcome}"
     ]
 

@@ -86,8 +86,8 @@ class Explorer {
       return area / Math.max(Math.hypot(b[0] - a[0], b[1] - a[1]),
         Math.hypot(c[0] - b[0], c[1] - b[1]), Math.hypot(a[0] - c[0], a[1] - c[1]));
     };
-    const worth = this.triangles.map(({ size }, k) => size < Math.min(4, this.largest) ? -1
-      : Math.min(...this.path(k).map((t) => width(this.triangles[t]))));
+    const worth = this.triangles.map(({ size, boundary }, k) =>
+      boundary || size < Math.min(4, this.largest) ? -1 : Math.min(...this.path(k).map((t) => width(this.triangles[t]))));
     return worth.indexOf(Math.max(...worth));
   }
 

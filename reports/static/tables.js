@@ -111,7 +111,7 @@ function drawTable(host, report, view, choices) {
     columns.forEach((column, k) => line.append(bodyCell(row[places[k]], column, k === 0)));
     body.append(line);
   });
-  const grid = element("table", {}, element("caption", {}, host.dataset.caption),
+  const grid = element("table", {}, element("caption", {}, element("span", {}, host.dataset.caption)),
     element("thead", {}, element("tr", {}, ...columns.map(headCell))), body);
   const scroll = element("div",
     { class: rows.length > LONG ? "scroll long" : "scroll", role: "region", tabindex: "0", "aria-label": host.dataset.caption }, grid);

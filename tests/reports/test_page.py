@@ -94,6 +94,11 @@ def test_headings_step_down_one_level_at_a_time(read: Reader) -> None:
     assert all(b - a <= 1 for a, b in pairwise(levels))
 
 
+def test_captions_tell_tables_apart(report: Path) -> None:
+    captions = re.findall(r'data-caption="([^"]*)"', report.read_text(encoding="utf-8"))
+    assert len(captions) == len(set(captions))
+
+
 def test_nothing_is_fetched(read: Reader) -> None:
     assert [a for a in read.addresses if not a.startswith(("#", "data:,"))] == []
 
