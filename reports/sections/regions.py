@@ -52,8 +52,8 @@ def _say(evidence: Evidence, view: View) -> list[str] | None:
     return [
         f"In {view.method_word} triangulations of {last['n_points']:,} {view.distribution_word} "
         f"points, {show(last['pair_share'], 'percent1')} of the triangles stand in a terminal "
-        "pair: a refinement that starts there touches nothing else. The triangles whose paths end at one "
-        f"terminal edge make a region of {show(last['mean_region'], 'fixed2')} triangles on "
+        "pair: a refinement that starts there touches nothing else. The triangles whose paths end "
+        f"at one terminal edge make a region of {show(last['mean_region'], 'fixed2')} triangles on "
         f"average; the largest of all had {last['max_region']:,}."
     ]
 
