@@ -1,9 +1,11 @@
 """The Dask cluster that a study runs on: one of this computer's cores, or any scheduler's."""
 
 import logging
+import signal
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from multiprocessing import resource_tracker
 from threading import Thread
 from typing import Any
 
@@ -118,16 +120,17 @@ def _gigabytes(n_bytes: int) -> str:
 @contextmanager
 def _local(workers: int) -> Iterator[Client]:
     try:
-        cluster = _distributed.LocalCluster(
-            n_workers=workers,
-            threads_per_worker=1,
-            processes=True,  # each with a nanny, which replaces it when it dies
-            host="127.0.0.1",
-            dashboard_address=None,
-            # Without a dashboard there still is a server of metrics, by default on port 8787.
-            scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
-            silence_logs=logging.CRITICAL,
-        )
+        with _without_interrupts():
+            cluster = _distributed.LocalCluster(
+                n_workers=workers,
+                threads_per_worker=1,
+                processes=True,  # each with a nanny, which replaces it when it dies
+                host="127.0.0.1",
+                dashboard_address=None,
+                # Without a dashboard there still is a server of metrics, by default on port 8787.
+                scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
+                silence_logs=logging.CRITICAL,
+            )
     except (OSError, RuntimeError, TimeoutError) as error:
         raise InputError(f"The workers did not start: {error}.") from error
     client = _distributed.Client(cluster)
@@ -137,6 +140,25 @@ def _local(workers: int) -> Iterator[Client]:
         # The workers take a while to end, in which the report can be written; Python waits for
         # this thread before it exits.
         Thread(target=_close, args=(client, cluster)).start()
+
+
+@contextmanager
+def _without_interrupts() -> Iterator[None]:
+    """Keep Ctrl-C, which a terminal sends to all processes, from the workers started herein.
+
+    Threads and processes inherit the mask of signals, so the workers that replace dead ones, which
+    a thread of the cluster starts later, have it too. Here, an interrupt waits for the end.
+    """
+    if not hasattr(signal, "pthread_sigmask"):  # as on Windows
+        yield
+        return
+    # Whatever starts this helper of multiprocessing first loses its mask.
+    resource_tracker.ensure_running()
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _close(client: Any, cluster: LocalCluster) -> None:  # noqa: ANN401 - as `_distributed`

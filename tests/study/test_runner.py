@@ -167,16 +167,22 @@ def test_a_killed_run_goes_on_and_leaves_no_process(tmp_path, whole, number, aft
         [sys.executable, str(script), str(tmp_path / "results")],
         env=os.environ | {"PYTHONPATH": os.pathsep.join([str(Path(__file__).parent), *sys.path])},
         stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
         text=True,
     )
     for _ in range(after):
         assert process.stdout.readline()
     orphans = worker_processes(process.pid)
     assert len(orphans) == 2
-    process.send_signal(number)
-    process.communicate()
+    if number == signal.SIGINT:
+        os.killpg(process.pid, number)  # as a terminal does
+    else:
+        process.send_signal(number)
+    _, errors = process.communicate()
     assert process.returncode != 0
+    # Only this process has noticed: no worker complains.
+    assert errors.count("Traceback") == (number == signal.SIGINT)
     _, alive = psutil.wait_procs(orphans, timeout=10)
     assert alive == []
     loaded = load(tmp_path / "results")
