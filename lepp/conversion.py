@@ -177,7 +177,9 @@ def _cells(kind: str, chosen: list[int], blocks: _Blocks, remedy: str) -> MeshPr
         f"{sum(len(blocks[k][1]) for k in chosen if blocks[k][0] == name)} cells of type {name}"
         for name in dict.fromkeys(blocks[k][0] for k in chosen)
     )
-    return MeshProblem(kind, ids, f"The mesh has {types} (cells {listed(ids)})", remedy)
+    first_ids = ", ".join(map(str, ids[:5]))
+    what = f"The mesh has {types}, the first of them being cells {first_ids}"
+    return MeshProblem(kind, ids, what, remedy)
 
 
 def _halves(points: np.ndarray, quads: np.ndarray, block: int) -> np.ndarray:

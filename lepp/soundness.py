@@ -4,7 +4,7 @@ All that is wrong is found and said at once. What cannot change a path is no pro
 no triangle uses, the order of a triangle's vertices, pieces that meet in a point.
 """
 
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 
@@ -67,7 +67,13 @@ def sound_mesh(
     Raises
     ------
     MeshError
+        All that is wrong.
+    InputError
+        An unknown word in place of "refuse", "merge" or "keep".
     """
+    if repeated_points not in get_args(RepeatedPoints):
+        known = ", ".join(map(repr, get_args(RepeatedPoints)))
+        raise InputError(f"repeated_points is {repeated_points!r}: use one of {known}.")
     problems = []
     repeated = np.empty((0, 2), np.int32)
     if repeated_points != "keep":
@@ -192,13 +198,13 @@ def _folds(folded: np.ndarray, clockwise: np.ndarray) -> list[MeshProblem]:
     """Say which triangles lie over their neighbours in the plane, as one turned over does."""
     if len(folded) == 0:
         return []
-    fewer = clockwise if 2 * clockwise.sum() <= len(clockwise) else ~clockwise
-    inverted = folded[fewer[folded]]
-    if len(inverted):
+    fewer = np.flatnonzero(clockwise if 2 * clockwise.sum() <= len(clockwise) else ~clockwise)
+    # Where triangles list their vertices in mixed orders, the order does not tell which is wrong.
+    if len(fewer) and np.isin(fewer, folded).all():
         what = (
-            f"Triangles {listed(inverted)} are inverted: they turn the other way round than the "
+            f"Triangles {listed(fewer)} are inverted: they turn the other way round than the "
             "rest and lie over their neighbours"
         )
-        return [MeshProblem("inverted triangles", inverted, what, "move their vertices back")]
+        return [MeshProblem("inverted triangles", fewer, what, "move their vertices back")]
     what = f"Triangles {listed(folded)} lie over a neighbour, on the same side of their common edge"
     return [MeshProblem("folded triangles", folded, what, "unfold the mesh there")]

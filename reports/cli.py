@@ -281,7 +281,7 @@ def mesh(
         split_quads=split_quads,
         ignore_volumes=ignore_volumes,
         drop_duplicates=drop_duplicates,
-        repeated_points={None: "refuse", True: "merge", False: "keep"}[merge_points],
+        repeated_points="refuse" if merge_points is None else "merge" if merge_points else "keep",
     )
     for line in answer(file, options, html=html, json_file=json_file, output=output):
         click.echo(line, err=json_file == Path("-"))

@@ -73,7 +73,7 @@ def _sizes(console: Console, counts: np.ndarray) -> Padding:
         table.add_row(
             name, f"{number:,}", _plain(show(share, "percent2")), _plain(show(below, "percent2"))
         )
-    return Padding(table, (1, 0, 0, 2), expand=False)
+    return _indented(console, table)
 
 
 def _path(console: Console, found: Survey) -> Padding:
@@ -96,7 +96,12 @@ def _path(console: Console, found: Survey) -> Padding:
             " ".join(map(str, vertices)),
             " ".join(f"{x:.6g}" for x in centre),
         )
-    return Padding(table, (1, 0, 0, 2), expand=False)
+    return _indented(console, table)
+
+
+def _indented(console: Console, table: Table) -> Padding:
+    above = 0 if console.is_terminal else 1  # there a table has an empty line of its own
+    return Padding(table, (above, 0, 0, 2), expand=False)
 
 
 def _plain(text: str) -> str:

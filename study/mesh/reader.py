@@ -15,6 +15,7 @@ def read(path: str) -> tuple[Any, str]:
     """Return a meshio.Mesh and no reason, or None and the reason: whatever its reader raised."""
     import meshio
 
+    _mend(meshio)
     try:
         return meshio.read(path), ""
     except ModuleNotFoundError as error:
@@ -27,6 +28,18 @@ def read(path: str) -> tuple[Any, str]:
         return None, str(error)
     except Exception as error:
         return None, f"{type(error).__name__}: {error}"
+
+
+def _mend(meshio: Any) -> None:  # noqa: ANN401 - a module
+    """Let the reader of Gmsh's format 2.2 split data of cells by blocks.
+
+    In meshio 5.3.5 it hands over pairs of a type and cells, and what splits takes the length of
+    the pair for that of the cells.
+    """
+    split = meshio._common.cell_data_from_raw
+    meshio.gmsh._gmsh22.cell_data_from_raw = lambda cells, data: split(
+        [block[1] if isinstance(block, tuple) else block for block in cells], data
+    )
 
 
 def main() -> None:

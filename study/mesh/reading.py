@@ -1,5 +1,6 @@
 """From a mesh file to a triangulation, and back from its triangles to the file's cells."""
 
+import os
 import pickle
 import re
 import subprocess
@@ -141,7 +142,13 @@ def _read_file(path: Path) -> Any:  # noqa: ANN401 - a meshio.Mesh; meshio has n
     # Without the current directory on the path (-P), in which a file might be called numpy.py.
     command = [sys.executable, "-P", "-m", "study.mesh.reader", str(path)]
     try:
-        done = subprocess.run(command, capture_output=True, timeout=limit, check=False)
+        done = subprocess.run(
+            command,
+            capture_output=True,
+            timeout=limit,
+            check=False,
+            env=os.environ | {"COLUMNS": "1000"},  # what is printed is not to be wrapped
+        )
     except subprocess.TimeoutExpired:
         raise lepp.InputError(
             f"{path} could not be read: meshio's reader was not done after {limit:.0f} s, which "

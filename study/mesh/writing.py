@@ -11,7 +11,7 @@ import numpy as np
 import lepp
 from study.mesh.survey import Survey
 
-FORMATS = {".vtu": "vtu", ".vtk": "vtk", ".xdmf": "xdmf", ".xmf": "xdmf", ".msh": "gmsh"}
+FORMATS = {".vtu": "vtu", ".vtk": "vtk", ".xdmf": "xdmf", ".xmf": "xdmf", ".msh": "gmsh22"}
 """The formats that keep data of cells, by extension."""
 
 
