@@ -273,56 +273,95 @@ def _settle(points, hull, i, q, fan, n_roots, n_ring):
     i : int
         The first of the list.
     """
-    start, seeing, lying, following = hull.start, hull.seeing, hull.lying, hull.following
-    place, also, on_edge = hull.place, hull.also, hull.on_edge
+    following, place = hull.following, hull.place
     n_fan = len(fan) - 1
-    first, last = start[fan[0]], start[fan[n_fan]]
-    incoming, outgoing = n_ring, n_ring + 1
-    qx, qy = points[q, 0], points[q, 1]
-    fx, fy = points[first, 0] - qx, points[first, 1] - qy
-    lx, ly = points[last, 0] - qx, points[last, 1] - qy
-    # Heads of the lists of those that see the new edges; the third is of those that see none.
-    heads = np.full(3, -1, np.int32)
-    heads[0], heads[1] = seeing[incoming], seeing[outgoing]
+    vertices = np.empty(n_fan + 1, np.int32)
+    for j in range(n_fan + 1):
+        vertices[j] = hull.start[fan[j]]
+    x, y = points[q, 0], points[q, 1]
+    to_x, to_y = np.empty(n_fan + 1), np.empty(n_fan + 1)
+    for j in range(n_fan + 1):
+        to_x[j], to_y[j] = points[vertices[j], 0] - x, points[vertices[j], 1] - y
+    first_x, first_y, last_x, last_y = to_x[0], to_y[0], to_x[n_fan], to_y[n_fan]
+    # Heads of the lists of those that see the two new edges.
+    head, other_head = hull.seeing[n_ring], hull.seeing[n_ring + 1]
     while i >= 0:
         current = i
         i = following[i]
-        dx, dy = points[current, 0] - qx, points[current, 1] - qy
-        side = fx * dy - fy * dx
-        other_side = lx * dy - ly * dx
-        bound = ORIENTATION_BOUND * (abs(fx * dy) + abs(fy * dx)) + UNDERFLOW
-        other_bound = ORIENTATION_BOUND * (abs(lx * dy) + abs(ly * dx)) + UNDERFLOW
-        if not ((abs(side) > bound) & (abs(other_side) > other_bound)):
-            side = float(orient(points, q, first, current))
-            other_side = float(orient(points, q, last, current))
-            if side <= 0.0 and other_side >= 0.0 and (side == 0.0 or other_side == 0.0):
-                if same(points, q, current):
-                    place[current] = _LEFT_OUT
-                    if current != q:
-                        hull.repeats[current] = q
-                    continue
-                edge = incoming if side == 0.0 else outgoing
-                place[current] = n_roots if side == 0.0 else n_roots + n_fan - 1
-                on_edge[current] = _ON_HULL + edge
-                following[current] = lying[edge]
-                lying[edge] = current
-                continue
+        dx, dy = points[current, 0] - x, points[current, 1] - y
+        left, right = first_x * dy, first_y * dx
+        side = left - right
+        certain = abs(side) > ORIENTATION_BOUND * (abs(left) + abs(right)) + UNDERFLOW
+        left, right = last_x * dy, last_y * dx
+        other_side = left - right
+        certain &= abs(other_side) > ORIENTATION_BOUND * (abs(left) + abs(right)) + UNDERFLOW
         low, high = 0, n_fan
         while high - low > 1:
             middle = (low + high) // 2
-            turn = orient(points, q, start[fan[middle]], current)
-            if turn == 0 and side < 0.0 and other_side > 0.0:
-                low, high = middle - 1, middle
-                on_edge[current] = 1
-                also[current] = n_roots + middle + 1
+            left, right = to_x[middle] * dy, to_y[middle] * dx
+            certain &= abs(left - right) > ORIENTATION_BOUND * (abs(left) + abs(right)) + UNDERFLOW
+            below = left < right
+            low = middle if below else low
+            high = high if below else middle
+        if not certain:
+            head, other_head = _settle_exactly(
+                points, hull, vertices, current, q, n_roots, n_ring, head, other_head
+            )
+            continue
+        sees_first, sees_second = side > 0.0, other_side < 0.0
+        at = n_roots + low
+        at = _SEES - n_ring - 1 if sees_second else at
+        place[current] = _SEES - n_ring if sees_first else at
+        following[current] = head if sees_first else other_head
+        head = current if sees_first else head
+        other_head = current if sees_second and not sees_first else other_head
+    hull.seeing[n_ring], hull.seeing[n_ring + 1] = head, other_head
+
+
+@kernel
+def _settle_exactly(points, hull, vertices, i, q, n_roots, n_ring, head, other_head):
+    """Place a point that saw a covered edge, whichever way it lies.
+
+    Returns
+    -------
+    head, other_head : int
+        The first points that see the two new edges.
+    """
+    low, high = 0, len(vertices) - 1
+    side = orient(points, q, vertices[low], i)
+    other_side = orient(points, q, vertices[high], i)
+    if side > 0:
+        hull.place[i] = _SEES - n_ring
+        hull.following[i] = head
+        return i, other_head
+    if other_side < 0:
+        hull.place[i] = _SEES - (n_ring + 1)
+        hull.following[i] = other_head
+        return head, i
+    if side == 0 and other_side == 0:
+        hull.place[i] = _LEFT_OUT
+        if i != q:
+            hull.repeats[i] = q
+    elif side == 0 or other_side == 0:
+        edge = n_ring if side == 0 else n_ring + 1
+        hull.place[i] = n_roots if side == 0 else n_roots + high - 1
+        hull.on_edge[i] = _ON_HULL + edge
+        hull.following[i] = hull.lying[edge]
+        hull.lying[edge] = i
+    else:
+        while high - low > 1:
+            middle = (low + high) // 2
+            turn = orient(points, q, vertices[middle], i)
+            if turn < 0:
+                low = middle
             else:
-                low, high = (middle, high) if turn < 0 else (low, middle)
-        group = 1 if other_side < 0.0 else 2
-        group = 0 if side > 0.0 else group
-        place[current] = n_roots + low if group == 2 else _SEES - (n_ring + group)
-        following[current] = heads[group]
-        heads[group] = current
-    seeing[incoming], seeing[outgoing] = heads[0], heads[1]
+                high = middle
+            if turn == 0:
+                low = middle - 1
+                hull.on_edge[i] = 1
+                hull.also[i] = n_roots + middle + 1
+        hull.place[i] = n_roots + low
+    return head, other_head
 
 
 @kernel
