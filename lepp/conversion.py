@@ -173,12 +173,14 @@ def _cells(kind: str, chosen: list[int], blocks: _Blocks, remedy: str) -> MeshPr
     """Say how many cells of which types there are; its ids count through all blocks."""
     first = np.cumsum([0] + [len(data) for _, data in blocks])
     ids = np.concatenate([np.arange(first[k], first[k + 1]) for k in chosen])
+    counts: dict[str, int] = {}
+    for k in chosen:
+        counts[blocks[k][0]] = counts.get(blocks[k][0], 0) + len(blocks[k][1])
     types = " and ".join(
-        f"{sum(len(blocks[k][1]) for k in chosen if blocks[k][0] == name)} cells of type {name}"
-        for name in dict.fromkeys(blocks[k][0] for k in chosen)
+        f"{count} cell{'s' if count > 1 else ''} of type {name}" for name, count in counts.items()
     )
     first_ids = ", ".join(map(str, ids[:5]))
-    what = f"The mesh has {types}, the first of them being cells {first_ids}"
+    what = f"The mesh has {types} (numbers {first_ids}{', …' if len(ids) > 5 else ''})"
     return MeshProblem(kind, ids, what, remedy)
 
 

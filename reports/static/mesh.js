@@ -405,7 +405,7 @@ class MeshView {
       pen.fill(shape);
       pen.globalAlpha = 1;
       pen.strokeStyle = place === 0 ? colors.ink : colors.surface;
-      pen.lineWidth = place === 0 ? 2 : 1;
+      pen.lineWidth = Math.min(place === 0 ? 2 : 1, this.breadth(t) / 4); // small ones keep their colour
       pen.stroke(shape);
     }
     if (found.end !== "outside") {
