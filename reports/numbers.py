@@ -11,6 +11,7 @@ _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _MINUS = "−"
 _DASH = "–"
 _SPACE = "\u00a0"  # no line ends inside a number
+_HUGE = 1e7  # from here on, decimals say nothing
 _TIMES = f"{_SPACE}×{_SPACE}"
 
 
@@ -39,6 +40,8 @@ def show(value: object, how: str) -> str:
         return f"{_MINUS if number < 0 else ''}∞"
     if kind == "int":
         return _signed(f"{number:,.0f}")
+    if kind == "fixed" and abs(number) >= _HUGE:
+        return significant(number, 3)
     if kind == "fixed":
         return _signed(f"{number:,.{digits}f}")
     if kind == "percent":

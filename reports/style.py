@@ -94,13 +94,14 @@ def powers(title: str) -> Spec:
 def sizes_axis(sizes: Iterable[int], title: str) -> Spec:
     """Axis with equal steps from one size to the next, whatever their distance."""
     ordered = [int(size) for size in sizes]
+    shown = range(0, len(ordered), -(-len(ordered) // 10))  # ten labels fit on a telephone
     return axis(
         title,
         type="category",
         categoryorder="array",
         categoryarray=ordered,
-        tickvals=list(range(len(ordered))),
-        ticktext=[thousands(size) for size in ordered],
+        tickvals=list(shown),
+        ticktext=[thousands(ordered[k]) for k in shown],
     )
 
 

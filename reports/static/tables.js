@@ -2,6 +2,7 @@
 const PRINTED_ROWS = 40;
 const LONG = 30; // rows beyond which a table scrolls in a window of its own
 const VERDICTS = ["verdict", "holds", "incremental", "delaunay", "premise", "bounds", "equal"];
+const HUGE = 1e7; // from here on, decimals say nothing
 const SPACE = "\u00a0"; // no line ends inside a number
 const TIMES = `${SPACE}×${SPACE}`;
 const GOOD = /^(agrees|close|plausible draw|yes|holds)$/;
@@ -44,7 +45,7 @@ function show(value, format) {
   const [, kind, digits] = format.match(/^(log10p|[a-z]+)(\d*)$/);
   switch (kind) {
     case "int": return fixed(value, 0);
-    case "fixed": return fixed(value, Number(digits));
+    case "fixed": return Math.abs(value) >= HUGE ? significant(value, 3) : fixed(value, Number(digits));
     case "percent": return fixed(100 * value, Number(digits)) + SPACE + "%";
     case "p":
       if (value === 0) return `<${SPACE}${superscript(-307)}`;

@@ -146,7 +146,9 @@ def test_csv_downloads_are_the_files_on_disk(open_report: Open, report: Path) ->
     )
     names = set(page.locator("[data-table]").evaluate_all("all => all.map(h => h.dataset.table)"))
     assert len(names) > 25
-    for name in sorted(names):
+    for k, name in enumerate(sorted(names), start=1):
+        if k % 8 == 0:
+            page.wait_for_timeout(1500)  # Chromium drops downloads beyond ten a second
         with page.expect_download() as started:
             page.locator(f"[data-table='{name}'] button.csv").first.click()
         assert started.value.suggested_filename == f"{name}.csv"

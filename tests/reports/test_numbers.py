@@ -12,6 +12,7 @@ from reports.numbers import count, large, listed, p_value_from_log10, show, thou
         (3.06657, "fixed4", "3.0666"),
         (-0.00001, "fixed4", "0.0000"),
         (-1.25, "fixed2", "−1.25"),
+        (-4.4069e11, "fixed2", "−4.41\u00a0×\u00a010¹¹"),
         (0.4171, "percent1", "41.7\u00a0%"),
         (7.535e-5, "g4", "7.535\u00a0×\u00a010⁻⁵"),
         (0.00123456, "g3", "0.00123"),
