@@ -12,11 +12,11 @@ import numpy as np
 
 from lepp.edges import is_safe, rank
 from lepp.hilbert import hilbert_order
-from lepp.insertion import insert, room, write_first_triangle
+from lepp.insertion import insert, next_of, room, write_first_triangle
 from lepp.jit import kernel
 from lepp.predicates import orientation
 
-_U1, _U2 = np.uint64(1), np.uint64(2)
+_U1, _U2, _U3, _U4 = np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(4)
 _ROUND_SHIFT = 4  # the points of a round are every 2**4-th of the next
 _FIRST_CAPACITY = 64
 _MODERATE = 100  # binary exponents that leave room for products of four differences
@@ -45,23 +45,38 @@ def delaunay(
     """
     n = len(points)
     points = _to_moderate_scale(points)
-    order = hilbert_order(points)
-    coordinates = _gather(points, order)
+    rows, coordinates, order, repeats = _in_one_block(
+        (16 * n + 16, np.uint32), (2 * n + 2, np.float64), (n, np.uint32), (n, np.int32)
+    )
+    hilbert_order(points, order, rows.view(np.uint64)[: 2 * n])  # rows are not in use yet
+    _gather(points, order, coordinates)
     first, second, third = _first_triangle(coordinates, n)
     if third == n:
         none = np.empty((0, 3), np.int32)
         return none, none, np.empty((0, 2), np.int32), None
-    rows = np.empty(16 * n + 16, np.uint32)
     write_first_triangle(rows, first, second, third, n)
-    repeats = np.full(n, -1, np.int32)
+    repeats.fill(-1)
     n_rows = _insert_all(coordinates, rows, n, order, repeats)
     rows = rows[: 8 * n_rows]
     m = _drop_outer(rows, n)
-    triangles, neighbors, ranks, safe = _arrays(rows, m, coordinates, order)
+    triangles, neighbors = np.empty((m, 3), np.int32), np.empty((m, 3), np.int32)
+    ranks = np.empty(m, np.uint8)
+    safe = _write_arrays(rows, coordinates, order, triangles, neighbors, ranks)
     left_out = np.flatnonzero(repeats >= 0)
     repeated = np.column_stack((order[left_out], order[repeats[left_out]])).astype(np.int32)
     repeated = repeated[np.argsort(repeated[:, 0])]
     return triangles, neighbors, repeated, ranks if safe else None
+
+
+def _in_one_block(*arrays: tuple[int, type]) -> list[np.ndarray]:
+    """Return empty arrays of some lengths and types, one behind the other in memory.
+
+    NumPy asks for large pages for arrays of a few megabytes or more, kernels do not: a tenth of the
+    time went into small pages.
+    """
+    ends = np.cumsum([length * np.dtype(dtype).itemsize for length, dtype in arrays])
+    parts = np.split(np.empty(ends[-1], np.uint8), ends[:-1])
+    return [part.view(dtype) for part, (_, dtype) in zip(parts, arrays, strict=True)]
 
 
 def _to_moderate_scale(points: np.ndarray) -> np.ndarray:
@@ -78,15 +93,13 @@ def _to_moderate_scale(points: np.ndarray) -> np.ndarray:
 
 
 @kernel
-def _gather(points, order):
-    """Return the coordinates in the given order, x and y in turn, then those of infinity (nan)."""
+def _gather(points, order, coordinates):
+    """Write the coordinates in the given order, x and y in turn, then those of infinity (nan)."""
     n = len(order)
-    coordinates = np.empty(2 * n + 2)
     for k in range(n):
         i = np.uint64(order[k])
         coordinates[2 * k], coordinates[2 * k + 1] = points[i, 0], points[i, 1]
     coordinates[2 * n] = coordinates[2 * n + 1] = np.nan
-    return coordinates
 
 
 @kernel
@@ -132,46 +145,53 @@ def _insert_all(xy, rows, n, order, repeats):
 
 
 @kernel
+def _is_outer(rows, t, infinity):
+    """Tell whether the triangle in row t has the vertex at infinity."""
+    h = 8 * t
+    return rows[h] == infinity or rows[h + 1] == infinity or rows[h + 2] == infinity
+
+
+@kernel
 def _drop_outer(rows, infinity):
     """Move the triangles with three finite vertices to the front; return their number.
 
     What was the twin of a half-edge of an outer triangle becomes a number beyond all of them.
     """
     n_rows = len(rows) // 8
-    outer = np.empty(n_rows, np.bool_)
-    n_finite = 0
-    for t in range(n_rows):
-        outer[t] = (
-            (rows[8 * t] == infinity)
-            | (rows[8 * t + 1] == infinity)
-            | (rows[8 * t + 2] == infinity)
-        )
-        n_finite += not outer[t]
-    beyond = 8 * n_rows
+    t = 0
+    while not _is_outer(rows, t, infinity):
+        t += 1
+    h = np.uint64(8 * t)
+    while rows[h] != infinity:
+        h += _U1
+    # Round the hull, along the half-edges across from infinity.
+    first, n_finite = h, n_rows
+    while True:
+        rows[rows[h + _U4] + _U4] = 8 * n_rows
+        n_finite -= 1
+        h = next_of(np.uint64(rows[next_of(h) + _U4]))
+        if h == first:
+            break
     last = n_rows
-    for t in range(n_finite):
-        if not outer[t]:
-            continue
-        for h in range(8 * t, 8 * t + 3):
-            if rows[h] == infinity:
-                rows[rows[h + 4] + 4] = beyond
-        last -= 1
-        while outer[last]:
+    for _ in range(n_rows - n_finite):
+        t, h = int(h >> _U3), next_of(np.uint64(rows[next_of(h) + _U4]))
+        if t < n_finite:
             last -= 1
-        for k in range(3):
-            rows[8 * t + k] = rows[8 * last + k]
-            twin = rows[8 * last + 4 + k]
-            rows[8 * t + 4 + k] = twin
-            if twin < beyond:
-                rows[twin + 4] = 8 * t + k
+            while _is_outer(rows, last, infinity):
+                last -= 1
+            for k in range(3):
+                rows[8 * t + k] = rows[8 * last + k]
+                twin = rows[8 * last + 4 + k]
+                rows[8 * t + 4 + k] = twin
+                if twin < 8 * n_rows:
+                    rows[twin + 4] = 8 * t + k
     return n_finite
 
 
 @kernel
-def _arrays(rows, m, xy, order):
-    """Return triangles (in the original numbers), neighbours, ranks; and if these are safe."""
-    triangles, neighbors = np.empty((m, 3), np.int32), np.empty((m, 3), np.int32)
-    ranks = np.empty(m, np.uint8)
+def _write_arrays(rows, xy, order, triangles, neighbors, ranks):
+    """Write triangles, in the original numbers, neighbours and ranks; tell if these are safe."""
+    m = len(triangles)
     safe = True
     for t in range(m):
         u, v, w = np.uint64(rows[8 * t]), np.uint64(rows[8 * t + 1]), np.uint64(rows[8 * t + 2])
@@ -187,4 +207,4 @@ def _arrays(rows, m, xy, order):
         across_c = (ux - vx) * (ux - vx) + (uy - vy) * (uy - vy)
         safe &= is_safe(across_a, across_b, across_c)
         ranks[t] = rank(a, b, c, across_a, across_b, across_c)
-    return triangles, neighbors, ranks, safe
+    return safe

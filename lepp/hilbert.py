@@ -39,7 +39,7 @@ _STEPS = _hilbert_steps()
 
 
 @kernel
-def hilbert_order(points):
+def hilbert_order(points, order, scratch):
     """Order points along a Hilbert curve.
 
     The curve runs through a square of 2**16 cells a side about the points. Where it leaves more
@@ -51,11 +51,10 @@ def hilbert_order(points):
     ----------
     points : (n, 2) float64 ndarray
         Finite.
-
-    Returns
-    -------
-    (n,) uint32 ndarray
+    order : (n,) uint32 ndarray, output
         Indices of the points; of equal points the first comes first.
+    scratch : (2 n,) uint64 ndarray
+        Overwritten.
     """
     n = len(points)
     n_bits = 2 * _DIGIT_BITS
@@ -65,15 +64,13 @@ def hilbert_order(points):
     keys = _keys(points)
     shift = np.uint32(2 * _BITS - n_bits)
     # A key in the upper half, an index in the lower.
-    entries = np.empty(n, np.uint64)
+    entries = scratch[:n]
     for i in range(n):
         entries[i] = (np.uint64(keys[i] >> shift) << _HALF_WORD) | np.uint64(i)
-    entries = _radix_sorted(entries, n_bits)
+    entries = _radix_sorted(entries, scratch[n:], n_bits)
     _order_runs(points, entries)
-    order = np.empty(n, np.uint32)
     for i in range(n):
         order[i] = entries[i]
-    return order
 
 
 @kernel
@@ -124,11 +121,10 @@ def hilbert_key(x, y):
 
 
 @kernel
-def _radix_sorted(entries, n_bits):
-    """Return the entries sorted, stably, by the lowest `n_bits` of their keys."""
+def _radix_sorted(entries, result, n_bits):
+    """Return one of two arrays, with the entries of the first in the order of `n_bits` of key."""
     n_buckets = 1 << _DIGIT_BITS
     mask = np.uint64(n_buckets - 1)
-    result = np.empty_like(entries)
     for first_bit in range(0, n_bits, _DIGIT_BITS):
         shift = np.uint64(first_bit) + _HALF_WORD
         end = np.zeros(n_buckets, np.uint32)

@@ -22,13 +22,13 @@ _ROW = ~np.uint64(7)  # takes a half-edge to half-edge 0 of its triangle
 
 
 @kernel
-def _next(h):
+def next_of(h):
     """Return the half-edge after h, counter-clockwise, in its triangle."""
     return h - _U2 if h & _U3 == _U2 else h + _U1
 
 
 @kernel
-def _previous(h):
+def previous_of(h):
     """Return the half-edge before h in its triangle."""
     return h + _U2 if h & _U3 == _U0 else h - _U1
 
@@ -133,13 +133,13 @@ def insert(xy, rows, n_rows, infinity, points, start, order, repeats, space):
         elif np.uint64(rows[h + _U2]) == infinity:
             h += _U2
         apex = np.uint64(rows[h])
-        a, b = _U2 * np.uint64(rows[_next(h)]), _U2 * np.uint64(rows[_previous(h)])
+        a, b = _U2 * np.uint64(rows[next_of(h)]), _U2 * np.uint64(rows[previous_of(h)])
         turn = orientation(xy[a], xy[a + _U1], xy[b], xy[b + _U1], x, y)
         if turn < 0 or (turn == 0 and apex == infinity):
             h = np.uint64(rows[h + _U4])
             apex = np.uint64(rows[h])
         while apex != infinity:  # the point is to the left of half-edge h, or on it
-            after, before = _next(h), _previous(h)
+            after, before = next_of(h), previous_of(h)
             a, b = _U2 * np.uint64(rows[before]), _U2 * apex
             if orientation(xy[a], xy[a + _U1], xy[b], xy[b + _U1], x, y) < 0:
                 h = np.uint64(rows[after + _U4])
@@ -195,11 +195,11 @@ def insert(xy, rows, n_rows, infinity, points, start, order, repeats, space):
             if conflict:
                 cavity[n_cavity] = h & _ROW
                 n_cavity += _U1
-                edges[_U2 * n_edges], edges[_U2 * n_edges + _U1] = _previous(h), v
+                edges[_U2 * n_edges], edges[_U2 * n_edges + _U1] = previous_of(h), v
                 k = _U4 * n_edges
                 ends[k], ends[k + _U1], ends[k + _U2], ends[k + _U3] = vx, vy, v_square, wv
                 n_edges += _U1
-                h = _next(h)
+                h = next_of(h)
                 v, vx, vy, v_square, uv = w, wx, wy, w_square, uw
             else:
                 sides[n_sides], corners[n_sides] = h, u
