@@ -22,9 +22,8 @@ from lepp import METHODS, InputError
 from study.sampling import DISTRIBUTIONS
 
 MIN_POINTS = 3
-#: A triangulation of n points has up to 2 n triangles, and 6 n sides of triangles are numbered
-#: by 32-bit integers.
-MAX_POINTS = (2**31 - 1) // 6
+#: A triangulation of n points makes up to 4 n edges, whose sides are numbered by 32-bit integers.
+MAX_POINTS = (2**31 - 1) // 8
 #: More rows than this do not belong into one directory (a row and its histograms take 1 to 2 kB).
 MAX_TASKS = 1_000_000
 #: The largest whole number that a TOML file can hold.
