@@ -14,6 +14,7 @@ from lepp.edges import is_safe, rank
 from lepp.hilbert import hilbert_order
 from lepp.insertion import insert, next_of, room, write_first_triangle
 from lepp.jit import kernel
+from lepp.memory import in_one_block
 from lepp.predicates import orientation
 
 _U1, _U2, _U3, _U4 = np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(4)
@@ -45,7 +46,7 @@ def delaunay(
     """
     n = len(points)
     points = _to_moderate_scale(points)
-    rows, coordinates, order, repeats = _in_one_block(
+    rows, coordinates, order, repeats = in_one_block(
         (16 * n + 16, np.uint32), (2 * n + 2, np.float64), (n, np.uint32), (n, np.int32)
     )
     hilbert_order(points, order, rows.view(np.uint64)[: 2 * n])  # rows are not in use yet
@@ -66,17 +67,6 @@ def delaunay(
     repeated = np.column_stack((order[left_out], order[repeats[left_out]])).astype(np.int32)
     repeated = repeated[np.argsort(repeated[:, 0])]
     return triangles, neighbors, repeated, ranks if safe else None
-
-
-def _in_one_block(*arrays: tuple[int, type]) -> list[np.ndarray]:
-    """Return empty arrays of some lengths and types, one behind the other in memory.
-
-    NumPy asks for large pages for arrays of a few megabytes or more, kernels do not: a tenth of the
-    time went into small pages.
-    """
-    ends = np.cumsum([length * np.dtype(dtype).itemsize for length, dtype in arrays])
-    parts = np.split(np.empty(ends[-1], np.uint8), ends[:-1])
-    return [part.view(dtype) for part, (_, dtype) in zip(parts, arrays, strict=True)]
 
 
 def _to_moderate_scale(points: np.ndarray) -> np.ndarray:

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lepp.jit import inlined, kernel
+from lepp.memory import in_one_block
 from lepp.predicates import ORIENTATION_BOUND, UNDERFLOW, orientation
 
 _LEFT_OUT = -1
@@ -40,20 +41,15 @@ class Hull(NamedTuple):
 
 def empty_hull(n: int) -> Hull:
     """Return a hull with room for n points, none of them in yet."""
-    after, before, start, inner, seeing, lying = np.empty((6, 2 * n + 4), np.int32)
-    return Hull(
-        after,
-        before,
-        start,
-        inner,
-        seeing,
-        lying,
-        following=np.empty(n, np.int32),
-        place=np.full(n, _LEFT_OUT, np.int32),
-        on_edge=np.zeros(n, np.int32),
-        also=np.zeros(n, np.int32),
-        repeats=np.full(n, -1, np.int32),
+    ring, point = (2 * n + 4, np.int32), (n, np.int32)
+    hull = Hull(
+        *in_one_block(ring, ring, ring, ring, ring, ring, point, point, point, point, point)
     )
+    hull.place.fill(_LEFT_OUT)
+    hull.on_edge.fill(0)
+    hull.also.fill(0)
+    hull.repeats.fill(-1)
+    return hull
 
 
 @inlined

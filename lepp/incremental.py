@@ -19,6 +19,7 @@ import numpy as np
 from lepp.edges import is_safe, rank
 from lepp.hull import empty_hull, orient, parts_of, same, sweep_hull
 from lepp.jit import kernel
+from lepp.memory import in_one_block
 from lepp.predicates import ORIENTATION_BOUND, UNDERFLOW
 
 
@@ -47,7 +48,10 @@ def incremental(
     roots = np.empty((2 * n, 6), np.int32)
     split = np.zeros(4 * n, np.int32)
     n_roots, n_edges = sweep_hull(points, hull, roots, split)
-    starts, room, x, y, ident = _gather(points, hull.place, hull.also, hull.on_edge, n_roots)
+    starts, room = _bounds(hull.place, hull.also, n_roots)
+    size = int(starts[-1]) + 3 * room  # the lists, and room behind them for three stacks of others
+    x, y, ident = in_one_block((size, np.float64), (size, np.float64), (size, np.int32))
+    _gather(points, hull.place, hull.also, hull.on_edge, starts, x, y, ident)
     triangles = np.empty((2 * n, 3), np.int32)
     half_edges = np.empty((2 * n, 3), np.int32)
     owners = np.zeros(8 * n, np.int32)
@@ -64,8 +68,8 @@ def incremental(
 
 
 @kernel
-def _gather(points, place, also, on_edge, n_roots):
-    """Sort the points that are left by root triangle, in the order of insertion.
+def _bounds(place, also, n_roots):
+    """Find how many points each root triangle has.
 
     Returns
     -------
@@ -73,25 +77,32 @@ def _gather(points, place, also, on_edge, n_roots):
         Bounds of the roots' lists.
     room : int
         More than the points and their repetitions that can be on the lists of one root's parts.
-    x, y : (k,) float64 ndarray
-    ident : (k,) int32 ndarray
-        Index of the point; its complement (~) for a point on an edge. All three have three times
-        the room behind the lists.
     """
-    end = np.zeros(n_roots + 1, np.int64)
+    count = np.zeros(n_roots, np.int64)
     for i in range(len(place)):
         if place[i] >= 0:
-            end[place[i]] += 1
+            count[place[i]] += 1
             if also[i]:
-                end[also[i] - 1] += 1
+                count[also[i] - 1] += 1
     starts = np.zeros(n_roots + 1, np.int64)
     room = 0
     for root in range(n_roots):
-        starts[root + 1] = starts[root] + end[root]
-        room = max(room, 2 * end[root] + 8)  # on an inner edge a point is on two lists
-        end[root] = starts[root]
-    size = starts[n_roots] + 3 * room
-    x, y, ident = np.empty(size), np.empty(size), np.empty(size, np.int32)
+        starts[root + 1] = starts[root] + count[root]
+        room = max(room, 2 * count[root] + 8)  # on an inner edge a point is on two lists
+    return starts, room
+
+
+@kernel
+def _gather(points, place, also, on_edge, starts, x, y, ident):
+    """Sort the points that are left by root triangle, in the order of insertion.
+
+    Parameters
+    ----------
+    x, y : (k,) float64 ndarray, output
+    ident : (k,) int32 ndarray, output
+        Index of the point; its complement (~) for a point on an edge.
+    """
+    end = starts[:-1].copy()
     for i in range(len(place)):
         root = place[i]
         while root >= 0:
@@ -101,7 +112,6 @@ def _gather(points, place, also, on_edge, n_roots):
             y[k] = points[i, 1]
             ident[k] = ~i if on_edge[i] else i
             root = also[i] - 1 if root == place[i] else -1
-    return starts, room, x, y, ident
 
 
 @kernel
@@ -138,7 +148,7 @@ def _subdivide(
     roots : (r, 6) int32 ndarray
         Vertices and half-edges.
     starts, room, x, y, ident
-        The points of each root, from `_gather`.
+        The points of each root, from `_bounds` and `_gather`.
     n_edges : int
         Number of edges so far.
     split : (4 n,) int32 ndarray
