@@ -19,7 +19,7 @@ def test_memory_is_checked_for_the_largest_triangulations_at_once():
 def test_a_design_larger_than_this_computer_is_refused_before_anything_starts():
     huge = Design.from_settings({"sizes": [268_000_000], "repetitions": 1})
     with (
-        pytest.raises(InputError, match="A triangulation of 300,000,000 points takes about"),
+        pytest.raises(InputError, match="A triangulation of 268,000,000 points takes about"),
         connect(huge, workers=1000, scheduler=None),
     ):
         pass
