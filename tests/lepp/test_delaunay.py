@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from point_sets import nasty_points, reference_points
 from scipy.spatial import Delaunay
-from test_incremental import assert_valid
+from validity import assert_valid
 
 import lepp
 from lepp import delaunay as kernels
