@@ -32,10 +32,10 @@ def kurtosis(p: float) -> float:
     return (p * p - 6.0 * p + 6.0) / (1.0 - p)
 
 
-def probability(size: np.ndarray, p: float) -> np.ndarray:
+def probability(size: np.ndarray | int, p: float) -> np.ndarray:
     """Return the probability of LEPP sizes under Theorem 1: (1 - p)**(size - 2) p, from 2 on."""
     size = np.asarray(size)
-    return np.where(size >= 2, (1.0 - p) ** (size - 2.0) * p, 0.0)
+    return np.where(size >= 2, (1.0 - p) ** np.maximum(size - 2.0, 0.0) * p, 0.0)
 
 
 def bounds(p_min: float = 1.0 / 3.0) -> tuple[tuple[float, float], tuple[float, float]]:

@@ -26,7 +26,7 @@ _LINE_SECONDS = 30.0
 
 def _load_report() -> None:
     """Import what writes the report, while the workers compute: it takes a second."""
-    import reports.page  # noqa: F401
+    import reports.page  # noqa: F401 - only to have it loaded
 
 
 def _plan(unfinished: Sequence[Task], n_tasks: int) -> str:

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 import numpy as np
 import pandas as pd
-from scipy import stats
 
+from lepp import theory
 from study.analysis.intervals import t_quantile
 from study.analysis.measurements import (
     Measurements,
@@ -136,7 +136,7 @@ def law(data: Measurements) -> tuple[Table, list[Missing]]:
         p = pooled_p(data.triangulations(method, distribution))
         for size in range(1, len(counts)):
             share = counts[size] / counts.sum()
-            predicted = stats.geom.pmf(size - 1, p) if size > 1 and p > 0 else 0.0
+            predicted = float(theory.probability(size, p)) if p > 0 else 0.0
             yield {
                 "lepp_size": size,
                 "count": int(counts[size]),
