@@ -1,22 +1,19 @@
 """The mathematics: triangulations and their longest-edge propagation paths (LEPP)."""
 
 from lepp import theory
-from lepp.counts import LeppCounts
 from lepp.errors import InputError, MeshError, MeshProblem
-from lepp.paths import (
-    TYPE_A,
-    TYPE_B,
-    TYPE_C,
-    TYPE_NONE,
-    LeppPaths,
-    lepp_paths,
-    lepp_sizes,
-)
-from lepp.triangulation import METHODS, Triangulation, triangulate
-from lepp.warm import compile_kernels
+from lepp.geometry.lengths import NEARLY_EQUAL
+from lepp.histogram import LeppCounts
+from lepp.jit.ahead import compile_kernels
+from lepp.mesh.triangulation import Triangulation
+from lepp.mesh.worst_case import worst_case_strip
+from lepp.paths.neighbor_types import TYPE_A, TYPE_B, TYPE_C, TYPE_NONE
+from lepp.paths.paths import LeppPaths, lepp_paths, lepp_sizes
+from lepp.triangulate import METHODS, Method, triangulate
 
 __all__ = [
     "METHODS",
+    "NEARLY_EQUAL",
     "TYPE_A",
     "TYPE_B",
     "TYPE_C",
@@ -26,10 +23,12 @@ __all__ = [
     "LeppPaths",
     "MeshError",
     "MeshProblem",
+    "Method",
     "Triangulation",
     "compile_kernels",
     "lepp_paths",
     "lepp_sizes",
     "theory",
     "triangulate",
+    "worst_case_strip",
 ]

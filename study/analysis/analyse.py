@@ -15,8 +15,6 @@ from study.analysis import (
     paths,
     randomness,
     regression,
-    reproduction,
-    statements,
     theory,
     variance,
     worst_case,
@@ -26,9 +24,10 @@ from study.analysis import (
 )
 from study.analysis.measurements import Measurements, Missing
 from study.analysis.table import DISTRIBUTION, METHOD, Column, Table
+from study.paper import reproduction, statements
 
 if TYPE_CHECKING:
-    from study.design import Design
+    from study.design.design import Design
 
 _BUILDERS = (
     randomness.randomness,

@@ -13,9 +13,9 @@ from study.analysis.measurements import (
     Row,
     for_each_population,
 )
-from study.analysis.multiple_testing import holm
 from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Table
-from study.analysis.tails import log10_f_tail
+from study.statistics.multiple_testing import holm
+from study.statistics.tails import log10_f_tail
 
 #: What scipy's Shapiro-Wilk test needs, and beyond what it approximates p without a warrant.
 _SHAPIRO_LEAST, _SHAPIRO_MOST = 3, 5000

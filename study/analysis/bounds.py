@@ -5,7 +5,6 @@ from collections.abc import Iterator
 import numpy as np
 from scipy import special
 
-from study.analysis.intervals import mean_interval
 from study.analysis.measurements import (
     SIGNIFICANCE,
     Measurements,
@@ -16,7 +15,8 @@ from study.analysis.measurements import (
     variance,
 )
 from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Table
-from study.analysis.tails import log10_t_tail
+from study.statistics.intervals import mean_interval
+from study.statistics.tails import log10_t_tail
 
 #: Theorem 2's bounds, and on which side of each the mean is supposed to lie.
 _BOUNDS = ((4.0, "less"), (2.0, "greater"))

@@ -7,7 +7,6 @@ import numpy as np
 import pandas as pd
 from scipy import special
 
-from study.analysis.intervals import mean_interval
 from study.analysis.measurements import (
     Measurements,
     Missing,
@@ -17,7 +16,8 @@ from study.analysis.measurements import (
     variance,
 )
 from study.analysis.table import DISTRIBUTION, N_POINTS, Column, Table
-from study.analysis.tails import log10_t_tail
+from study.statistics.intervals import mean_interval
+from study.statistics.tails import log10_t_tail
 
 _FIRST = Column("method_1", "First triangulation")
 _SECOND = Column("method_2", "Second triangulation")

@@ -14,8 +14,8 @@ from study.analysis.measurements import (
     Row,
     for_each_population,
 )
-from study.analysis.studentized_range import studentized_range_critical, studentized_range_tail
 from study.analysis.table import DISTRIBUTION, METHOD, Column, Table
+from study.statistics.studentized_range import studentized_range_critical, studentized_range_tail
 
 #: The critical value is smooth in 1 / df: a polynomial of this degree is exact to 1e-8.
 _DEGREE = 16

@@ -3,9 +3,9 @@
 import numpy as np
 import pandas as pd
 
-from study.analysis.intervals import mean_interval
 from study.analysis.measurements import Measurements, Missing, Row, select, variance
 from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Table
+from study.statistics.intervals import mean_interval
 
 _GROUPS = (
     METHOD,

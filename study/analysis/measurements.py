@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 if TYPE_CHECKING:
-    from study.design import Design
+    from study.design.design import Design
 
 #: Level of every interval, and the level of significance that the paper tests at.
 CONFIDENCE = 0.95

@@ -6,7 +6,6 @@ import numpy as np
 import pandas as pd
 
 from lepp import theory
-from study.analysis.intervals import t_quantile
 from study.analysis.measurements import (
     Measurements,
     Missing,
@@ -16,6 +15,7 @@ from study.analysis.measurements import (
     select,
 )
 from study.analysis.table import DISTRIBUTION, METHOD, Column, Table
+from study.statistics.intervals import t_quantile
 
 _SIZE = Column("lepp_size", "LEPP size", "triangles", "int")
 

@@ -7,8 +7,8 @@ import pandas as pd
 from scipy import stats
 
 from study.analysis.measurements import CONFIDENCE, SIGNIFICANCE, Measurements, Missing, Row
-from study.analysis.multiple_testing import holm
 from study.analysis.table import DISTRIBUTION, Column, Table
+from study.statistics.multiple_testing import holm
 
 TESTS = {"runs": "runs_p", "Kolmogorov-Smirnov": "ks_p"}
 COORDINATES = ("x", "y")

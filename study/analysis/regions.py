@@ -4,7 +4,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from study.analysis.intervals import mean_interval
 from study.analysis.measurements import (
     Measurements,
     Missing,
@@ -15,6 +14,7 @@ from study.analysis.measurements import (
 )
 from study.analysis.paths import counts_by_task
 from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Table
+from study.statistics.intervals import mean_interval
 
 _REGIONS = (
     METHOD,

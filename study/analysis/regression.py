@@ -4,16 +4,16 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from study.analysis.fitting import (
+from study.analysis.measurements import Measurements, Missing, NotEnough, Row
+from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Table
+from study.statistics.fitting import (
     Fit,
     Observations,
     fit_linear,
     fit_saturating,
     leave_one_group_out,
 )
-from study.analysis.measurements import Measurements, Missing, NotEnough, Row
-from study.analysis.models import LINEAR_MODELS, SATURATING, LinearModel, SaturatingModel
-from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Table
+from study.statistics.models import LINEAR_MODELS, SATURATING, LinearModel, SaturatingModel
 
 #: How the observations are weighted, by what the tables call it.
 FITTINGS = {"least squares": False, "weighted": True}

@@ -9,9 +9,9 @@ from collections.abc import Iterator
 import pandas as pd
 
 from lepp import theory
-from study.analysis.intervals import at_least, mean_interval
 from study.analysis.measurements import Measurements, Missing, NotEnough, Row, for_each_population
 from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Table
+from study.statistics.intervals import at_least, mean_interval
 
 #: Theorem 2's premise.
 LEAST_P = 1 / 3

@@ -13,7 +13,7 @@ from study.analysis.measurements import (
     for_each_population,
 )
 from study.analysis.table import DISTRIBUTION, METHOD, Column, Table
-from study.analysis.tails import log10_chi2_tail, log10_f_tail
+from study.statistics.tails import log10_chi2_tail, log10_f_tail
 
 _ANOVA = (
     METHOD,

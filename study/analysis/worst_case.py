@@ -1,7 +1,6 @@
 """Figure 2 and equation 1: the strip whose first path covers all of it."""
 
 import lepp
-from lepp import theory
 from study.analysis.table import Column, Table
 
 _SIZES = (1, 2, 3, 10, 100, 1000, 10_000, 100_000, 1_000_000)
@@ -19,7 +18,7 @@ def worst_case() -> Table:
     """Measure the worst-case strip, up to a million triangles, by the kernels of the study."""
     rows = []
     for n in _SIZES:
-        sizes = lepp.lepp_sizes(theory.worst_case_strip(n))
+        sizes = lepp.lepp_sizes(lepp.worst_case_strip(n))
         total, longest = int(sizes.sum(dtype="int64")), int(sizes.max())
         rows.append(
             {

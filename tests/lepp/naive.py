@@ -62,47 +62,78 @@ def _insert(points, triangles, i):
     return after
 
 
-def longest_edge(points, triangle):
-    """The last of a triangle's edges in the order (squared length, smaller, larger index)."""
+def edges_of(triangle):
+    """The edges of a triangle, each with its smaller vertex first."""
+    a, b, c = triangle
+    return [tuple(sorted(edge)) for edge in ((b, c), (c, a), (a, b))]
 
-    def key(edge):
+
+class Paths:
+    """Longest-edge propagation paths by their definition, in rational arithmetic.
+
+    An edge is a longest one unless another is longer by more than `within` of its length; a path
+    goes on only to a triangle whose longest edge is longer (by more than that) than the one
+    crossed; of several ways it takes the shortest, of equal ones that by the largest vertices.
+    """
+
+    def __init__(self, points, triangles, within=0):
+        self.points, self.triangles = exact(points), [tuple(t) for t in triangles]
+        self.factor = (1 + Fraction(within)) ** 2
+        self.beside = {}
+        for t, triangle in enumerate(self.triangles):
+            for edge in edges_of(triangle):
+                self.beside.setdefault(edge, []).append(t)
+        self.found = {}
+
+    def square(self, edge):
         a, b = edge
-        square = 0.0
-        for x, y in zip(points[a], points[b], strict=True):
-            square += (float(x) - float(y)) * (float(x) - float(y))
-        return (square, *edge)
+        return sum((x - y) ** 2 for x, y in zip(self.points[a], self.points[b], strict=True))
 
-    return max((tuple(sorted((triangle[k - 2], triangle[k - 1]))) for k in range(3)), key=key)
+    def longest(self, t):
+        edges = edges_of(self.triangles[t])
+        most = max(map(self.square, edges))
+        return [edge for edge in edges if not most > self.square(edge) * self.factor]
 
+    def across(self, t, edge):
+        return next((s for s in self.beside[edge] if s != t), None)
 
-def path(points, triangles, t):
-    """Lepp(t): the indices of its triangles, in order."""
-    steps = [t]
-    while True:
-        edge = set(longest_edge(points, triangles[steps[-1]]))
-        beyond = [s for s, other in enumerate(triangles) if s != steps[-1] and edge <= set(other)]
-        if not beyond or beyond[0] in steps:
-            return steps
-        steps.append(beyond[0])
+    def way(self, t, edge):
+        """The rest of the path of t across one of its longest edges, and the terminal edge."""
+        s = self.across(t, edge)
+        if s is None:
+            return [], edge
+        if edge in self.longest(s):
+            return [s], edge
+        return self.path(s)
 
+    def path(self, t):
+        """Lepp(t), the indices of its triangles in order; and its terminal edge."""
+        if t not in self.found:
+            ways = [(*self.way(t, edge), edge) for edge in self.longest(t)]
+            shortest = min(len(steps) for steps, *_ in ways)
+            steps, terminal, edge = max(
+                (w for w in ways if len(w[0]) == shortest), key=lambda w: w[2]
+            )
+            self.found[t] = ([t, *steps], terminal, edge)
+        return self.found[t][:2]
 
-def neighbor_type(points, triangles, t):
-    """Definition 1: 0 at the boundary, else 1, 2, 3 for A, B, C."""
-    edge = longest_edge(points, triangles[t])
-    beyond = [s for s, other in enumerate(triangles) if s != t and set(edge) <= set(other)]
-    if not beyond:
-        return 0
-    a, b, c = triangles[beyond[0]]
-    shorter = [e for e in ((a, b), (b, c), (c, a)) if set(e) != set(edge)]
-    first = beyond[0]
-    if longest_edge(points, triangles[first]) == edge:
-        return 3
+    def sizes(self):
+        return [len(self.path(t)[0]) for t in range(len(self.triangles))]
 
-    def square(e):
-        return sum(
-            (float(x) - float(y)) ** 2 for x, y in zip(points[e[0]], points[e[1]], strict=True)
-        )
+    def successor(self, t):
+        self.path(t)
+        return self.across(t, self.found[t][2])
 
-    key = (square(edge), *sorted(edge))
-    below = sum((square(e), *sorted(e)) < key for e in shorter)
-    return 1 + below
+    def neighbor_type(self, t):
+        """Definition 1: 0 at the boundary, else 1, 2, 3 for A, B, C."""
+        s = self.successor(t)
+        if s is None:
+            return 0
+        edge = self.found[t][2]
+        if edge in self.longest(s):
+            return 3
+        others = [other for other in edges_of(self.triangles[s]) if other != edge]
+        return 1 if all((self.square(e), e) > (self.square(edge), edge) for e in others) else 2
+
+    def n_equal(self):
+        return sum(len(self.longest(t)) > 1 for t in range(len(self.triangles)))

@@ -4,7 +4,7 @@ import naive
 import numpy as np
 
 import lepp
-from lepp.edges import edge_ranks
+from lepp.geometry.lengths import edge_ranks
 
 
 def assert_valid(triangulation):
@@ -12,9 +12,9 @@ def assert_valid(triangulation):
     points, triangles = naive.exact(triangulation.points), triangulation.triangles
     areas = [naive.turn(*(points[v] for v in t)) for t in triangles.tolist()]
     assert min(areas) > 0
-    if triangulation.ranks is not None:
+    if triangulation._edge_ranks is not None:
         ranks = edge_ranks(triangulation.points, triangles)
-        assert np.array_equal(triangulation.ranks, ranks)
+        assert np.array_equal(triangulation._edge_ranks, ranks)
     rebuilt = lepp.Triangulation.from_arrays(triangulation.points, triangles)
     assert np.array_equal(rebuilt.neighbors, triangulation.neighbors)
     hull = {}

@@ -8,8 +8,8 @@ import pytest
 from playwright.sync_api import Browser, Page, sync_playwright
 from tiny_runs import DESIGN, store_run
 
-from reports.page import write_report
-from study.experiment import perform
+from reports.study_page.page import write_report
+from study.run.experiment import perform
 
 CHROMIUM = Path("/usr/bin/chromium")
 _FLAGS = [

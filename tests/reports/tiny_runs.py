@@ -4,12 +4,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 from lepp import METHODS
-from study.design import Design
-from study.experiment import Outcome, Task, tasks_of
-from study.store import Store
+from study.design.design import Design
+from study.results.store import Store
+from study.run.experiment import Outcome, Task, tasks_of
 
 DESIGN = Design(
-    methods=METHODS,
+    methods=tuple(METHODS),
     distributions=("uniform", "bivariate_normal"),
     sizes=(300, 600, 1200, 2400, 4800),
     repetitions=6,

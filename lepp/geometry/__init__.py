@@ -1,0 +1,1 @@
+"""Exact geometry: signs of determinants, lengths, the order of points along a Hilbert curve."""

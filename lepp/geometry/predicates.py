@@ -1,0 +1,237 @@
+"""Exact signs of geometric determinants.
+
+Each predicate first evaluates its determinant in floating point and trusts the sign when it
+exceeds a bound on the rounding error (J. R. Shewchuk, "Adaptive precision floating-point arithmetic
+and fast robust geometric predicates", 1997, section 4.2). Where it does not, the determinant of the
+coordinates as given is summed exactly in fixed point, over the whole range of doubles: neither
+overflow nor underflow can falsify a sign.
+"""
+
+import math
+
+import numpy as np
+
+from lepp.geometry.fixed_point import accumulator_sign, add_product, new_accumulator
+from lepp.jit import kernel
+
+EPSILON = 2.0**-53
+ORIENTATION_BOUND = (3.0 + 16.0 * EPSILON) * EPSILON
+# Products that underflow lose up to 2**-1075 each, which the relative bounds do not see.
+UNDERFLOW = 2.0**-960
+# Inside these magnitudes (or at zero) the error-free product below neither over- nor underflows.
+_PRODUCT_MIN = 2.0**-450
+_PRODUCT_MAX = 2.0**450
+_SPLITTER = 2.0**27 + 1.0
+
+
+@kernel
+def exact_orientation(ax, ay, bx, by, cx, cy):
+    """Return the sign of `orientation` by fixed-point summation of its six products."""
+    accumulator = new_accumulator(2)
+    add_product(accumulator, 1, (ax, by))
+    add_product(accumulator, -1, (ax, cy))
+    add_product(accumulator, -1, (ay, bx))
+    add_product(accumulator, 1, (ay, cx))
+    add_product(accumulator, 1, (bx, cy))
+    add_product(accumulator, -1, (by, cx))
+    return accumulator_sign(accumulator)
+
+
+@kernel
+def _product_error(a, b, product):
+    """Return ``a * b - product`` exactly (Dekker's two-product)."""
+    big = _SPLITTER * a
+    a_high = big - (big - a)
+    a_low = a - a_high
+    big = _SPLITTER * b
+    b_high = big - (big - b)
+    b_low = b - b_high
+    return a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low)
+
+
+@kernel
+def difference_is_exact(a, b, difference):
+    """Tell whether `difference` is a - b without rounding, at a magnitude safe for products."""
+    b_virtual = a - difference
+    a_virtual = difference + b_virtual
+    rounding = (a - a_virtual) + (b_virtual - b)
+    magnitude = abs(difference)
+    return rounding == 0.0 and (difference == 0.0 or _PRODUCT_MIN < magnitude < _PRODUCT_MAX)
+
+
+@kernel
+def uncertain_orientation(ax, ay, bx, by, cx, cy):
+    """Return the sign of `orientation` where the floating filter has failed.
+
+    On lattices the differences are exact and two exact products settle it; fixed point does the
+    rest.
+    """
+    acx, acy, bcx, bcy = ax - cx, ay - cy, bx - cx, by - cy
+    if (
+        difference_is_exact(ax, cx, acx)
+        and difference_is_exact(ay, cy, acy)
+        and difference_is_exact(bx, cx, bcx)
+        and difference_is_exact(by, cy, bcy)
+    ):
+        left, right = acx * bcy, acy * bcx
+        if left == right:  # equal after rounding: the rounding errors decide
+            left = _product_error(acx, bcy, left)
+            right = _product_error(acy, bcx, right)
+        return int(left > right) - int(left < right)  # rounding keeps the order of products
+    return exact_orientation(ax, ay, bx, by, cx, cy)
+
+
+@kernel
+def orientation(ax, ay, bx, by, cx, cy):
+    """Tell on which side of the line from a to b the point c lies.
+
+    Returns
+    -------
+    int
+        1 if a, b, c turn left (counter-clockwise), -1 if they turn right, 0 if they are collinear.
+        Exact for all finite doubles.
+    """
+    left = (ax - cx) * (by - cy)
+    right = (ay - cy) * (bx - cx)
+    determinant = left - right
+    bound = ORIENTATION_BOUND * (abs(left) + abs(right)) + UNDERFLOW
+    if abs(determinant) > bound:
+        return 1 if determinant > 0.0 else -1
+    return uncertain_orientation(ax, ay, bx, by, cx, cy)
+
+
+@kernel
+def orientations(points, triangles):
+    """Return the `orientation` of each triangle of an (m, 3) array, as (m,) int8."""
+    signs = np.empty(len(triangles), np.int8)
+    for t in range(len(triangles)):
+        a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
+        signs[t] = orientation(
+            points[a, 0], points[a, 1], points[b, 0], points[b, 1], points[c, 0], points[c, 1]
+        )
+    return signs
+
+
+# The permanent of the in-circle determinant is at most a third of the square of the sum of the
+# three squared distances: 10/3 EPSILON of that bounds the rounding error, the rest covers its own.
+IN_CIRCLE_BOUND = 4.0 * EPSILON
+_PERMANENT_BOUND = (10.0 + 96.0 * EPSILON) * EPSILON
+# With integers up to this, the in-circle determinant (12 times the fourth power) fits 63 bits.
+_SMALL_BITS = 14
+
+
+@kernel
+def _add_minor(accumulator, sign, ax, ay, bx, by, cx, cy):
+    """Add the determinant of rows (x, y, x * x + y * y) to a fixed-point number, exactly."""
+    for x, y, x1, y1, x2, y2 in (
+        (ax, ay, bx, by, cx, cy),
+        (bx, by, cx, cy, ax, ay),
+        (cx, cy, ax, ay, bx, by),
+    ):
+        add_product(accumulator, sign, (x, x, x1, y2))
+        add_product(accumulator, sign, (y, y, x1, y2))
+        add_product(accumulator, -sign, (x, x, x2, y1))
+        add_product(accumulator, -sign, (y, y, x2, y1))
+
+
+@kernel
+def exact_in_circle(ax, ay, bx, by, cx, cy, px, py):
+    """Return the sign of `in_circle` by fixed-point summation of its 48 products."""
+    accumulator = new_accumulator(4)
+    _add_minor(accumulator, 1, ax, ay, bx, by, cx, cy)
+    _add_minor(accumulator, -1, ax, ay, bx, by, px, py)
+    _add_minor(accumulator, 1, ax, ay, cx, cy, px, py)
+    _add_minor(accumulator, -1, bx, by, cx, cy, px, py)
+    return accumulator_sign(accumulator)
+
+
+@kernel
+def _exact_in_circle_of_differences(ax, ay, bx, by, cx, cy):
+    """Return the sign of `in_circle` from exact coordinates relative to p.
+
+    On lattices these are small multiples of a power of two, and the determinant fits an integer;
+    elsewhere 12 products are summed in fixed point.
+    """
+    largest = max(abs(ax), abs(ay), abs(bx), abs(by), abs(cx), abs(cy))
+    scale = math.ldexp(1.0, _SMALL_BITS - math.frexp(largest)[1])
+    ax_i, ay_i, bx_i = np.int64(ax * scale), np.int64(ay * scale), np.int64(bx * scale)
+    by_i, cx_i, cy_i = np.int64(by * scale), np.int64(cx * scale), np.int64(cy * scale)
+    if (
+        ax_i == ax * scale
+        and ay_i == ay * scale
+        and bx_i == bx * scale
+        and by_i == by * scale
+        and cx_i == cx * scale
+        and cy_i == cy * scale
+    ):
+        determinant = (
+            (ax_i * ax_i + ay_i * ay_i) * (bx_i * cy_i - cx_i * by_i)
+            + (bx_i * bx_i + by_i * by_i) * (cx_i * ay_i - ax_i * cy_i)
+            + (cx_i * cx_i + cy_i * cy_i) * (ax_i * by_i - bx_i * ay_i)
+        )
+        return int(determinant > 0) - int(determinant < 0)
+    accumulator = new_accumulator(4)
+    _add_minor(accumulator, 1, ax, ay, bx, by, cx, cy)
+    return accumulator_sign(accumulator)
+
+
+@kernel
+def uncertain_in_circle(ax, ay, bx, by, cx, cy, px, py):
+    """Return the sign of `in_circle` where its first floating filter has failed.
+
+    The second filter is sharper for points that lie near a line.
+    """
+    adx, ady, bdx, bdy, cdx, cdy = ax - px, ay - py, bx - px, by - py, cx - px, cy - py
+    a_square, b_square, c_square = (
+        adx * adx + ady * ady,
+        bdx * bdx + bdy * bdy,
+        cdx * cdx + cdy * cdy,
+    )
+    bc, cb, ca, ac, ab, ba = bdx * cdy, cdx * bdy, cdx * ady, adx * cdy, adx * bdy, bdx * ady
+    determinant = a_square * (bc - cb) + b_square * (ca - ac) + c_square * (ab - ba)
+    permanent = (
+        a_square * (abs(bc) + abs(cb))
+        + b_square * (abs(ca) + abs(ac))
+        + c_square * (abs(ab) + abs(ba))
+    )
+    # What a product loses to underflow may then be multiplied by a square, or by a product.
+    lost = UNDERFLOW * (1.0 + a_square + b_square + c_square)
+    if abs(determinant) > _PERMANENT_BOUND * permanent + lost:
+        return 1 if determinant > 0.0 else -1
+    if (
+        difference_is_exact(ax, px, adx)
+        and difference_is_exact(ay, py, ady)
+        and difference_is_exact(bx, px, bdx)
+        and difference_is_exact(by, py, bdy)
+        and difference_is_exact(cx, px, cdx)
+        and difference_is_exact(cy, py, cdy)
+    ):
+        return _exact_in_circle_of_differences(adx, ady, bdx, bdy, cdx, cdy)
+    return exact_in_circle(ax, ay, bx, by, cx, cy, px, py)
+
+
+@kernel
+def in_circle(ax, ay, bx, by, cx, cy, px, py):
+    """Tell whether the point p lies inside the circle through a, b, c (counter-clockwise).
+
+    Returns
+    -------
+    int
+        1 inside, -1 outside, 0 on the circle; the opposite if a, b, c turn clockwise. Exact for all
+        finite doubles.
+    """
+    adx, ady, bdx, bdy, cdx, cdy = ax - px, ay - py, bx - px, by - py, cx - px, cy - py
+    a_square, b_square, c_square = (
+        adx * adx + ady * ady,
+        bdx * bdx + bdy * bdy,
+        cdx * cdx + cdy * cdy,
+    )
+    determinant = (
+        a_square * (bdx * cdy - cdx * bdy)
+        + b_square * (cdx * ady - adx * cdy)
+        + c_square * (adx * bdy - bdx * ady)
+    )
+    size = a_square + b_square + c_square
+    if abs(determinant) > IN_CIRCLE_BOUND * (size * size) + UNDERFLOW:
+        return 1 if determinant > 0.0 else -1
+    return uncertain_in_circle(ax, ay, bx, by, cx, cy, px, py)

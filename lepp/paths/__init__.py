@@ -1,0 +1,1 @@
+"""Longest-edge propagation paths: successors, sizes, neighbour types, terminal edges, regions."""

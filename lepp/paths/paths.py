@@ -1,0 +1,150 @@
+"""The longest-edge propagation path (LEPP) of every triangle of a mesh.
+
+A path steps across the longest edge of each triangle into the neighbour there, as long as the
+neighbour's longest edge is *greater* (M. C. Rivara, "New longest-edge algorithms for the
+refinement and/or improvement of unstructured triangulations", 1997). An edge that no triangle
+beside it exceeds is *terminal*. Where a triangle has several equal longest edges, its path is the
+shortest that they give; so sizes do not depend on how the mesh is numbered.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lepp.errors import InputError
+from lepp.geometry.lengths import LONGEST, NEARLY_EQUAL_BIT
+from lepp.jit.memory import for_kernels
+from lepp.mesh.triangulation import Triangulation
+from lepp.paths.neighbor_types import neighbor_types
+from lepp.paths.regions import regions_of_edges, regions_of_triangles
+from lepp.paths.successors import follow, single_edges, step_over
+from lepp.paths.ties import choose_edges
+
+
+@dataclass(frozen=True, eq=False)
+class LeppPaths:
+    """The longest-edge propagation path of every triangle of a mesh.
+
+    Attributes
+    ----------
+    sizes : (m,) int32 ndarray
+        Triangles on Lepp(t), t and the terminal triangles included: Lepp(t) is the first
+        ``sizes[t]`` of t, ``successors[t]``, its successor, and so on.
+    successors : (m,) int32 ndarray
+        The neighbour across the longest edge; -1 where that is on the boundary.
+    neighbor_types : (m,) int8 ndarray
+        Of that neighbour: TYPE_A, TYPE_B, TYPE_C; TYPE_NONE at the boundary.
+    terminal_edges : (k, 2) int32 ndarray
+        Vertices of the edges at which paths end; ordered by their (first) terminal triangle.
+    regions : (m,) int32 ndarray
+        Which terminal edge the path of each triangle ends at.
+    n_equal : int
+        Triangles with more than one longest edge; their successor is, of those that give the
+        shortest path, the one across the edge with the largest vertex numbers.
+    n_nearly_equal : int
+        Triangles whose two longest edges agree to a relative `lepp.NEARLY_EQUAL`: in a mesh whose
+        coordinates are rounded, equal edges that rounding has made different are among them.
+    """
+
+    sizes: np.ndarray
+    successors: np.ndarray
+    neighbor_types: np.ndarray
+    terminal_edges: np.ndarray
+    regions: np.ndarray
+    n_equal: int
+    n_nearly_equal: int
+
+
+def lepp_sizes(triangulation: Triangulation, *, equal_within: float = 0.0) -> np.ndarray:
+    """Return the number of triangles on the longest-edge propagation path of each triangle.
+
+    Parameters
+    ----------
+    triangulation : Triangulation
+    equal_within : float
+        Edges whose lengths differ by at most this share count as equal. 0, which compares them
+        exactly, is right where coordinates are exact; 1e-6 where they come from single precision.
+
+    Returns
+    -------
+    (m,) int32 ndarray
+        1 where a longest edge is on the boundary; in time linear in m, however long the paths.
+
+    Raises
+    ------
+    InputError
+        If `equal_within` is not a share, at least 0 and below 1.
+    """
+    neighbors = for_kernels(triangulation.neighbors, np.int32)
+    ranks = _ranks(triangulation, equal_within)
+    if _n_equal(ranks):
+        triangles = for_kernels(triangulation.triangles, np.int32)
+        return _checked(choose_edges(triangles, neighbors, ranks)[0])
+    successors = step_over(neighbors, single_edges(ranks))
+    return _checked(follow(successors, np.empty(0, np.int32)))
+
+
+def lepp_paths(triangulation: Triangulation, *, equal_within: float = 0.0) -> LeppPaths:
+    """Return the longest-edge propagation paths of all triangles.
+
+    Parameters
+    ----------
+    triangulation : Triangulation
+    equal_within : float
+        As for `lepp_sizes`.
+
+    Returns
+    -------
+    LeppPaths
+
+    Raises
+    ------
+    InputError
+        As `lepp_sizes`.
+    """
+    triangles = for_kernels(triangulation.triangles, np.int32)
+    neighbors = for_kernels(triangulation.neighbors, np.int32)
+    ranks = _ranks(triangulation, equal_within)
+    n_equal = _n_equal(ranks)
+    if n_equal:
+        sizes, edges, ends = choose_edges(triangles, neighbors, ranks)
+        terminal_edges, regions = regions_of_edges(triangles, ends)
+        successors = step_over(neighbors, edges)
+    else:
+        edges = single_edges(ranks)
+        successors = step_over(neighbors, edges)
+        ends = np.empty(len(successors), np.int32)
+        sizes = follow(successors, ends)
+        terminal_edges, regions = regions_of_triangles(triangles, edges, ends)
+    return LeppPaths(
+        _checked(sizes),
+        successors,
+        neighbor_types(neighbors, successors, ranks),
+        terminal_edges,
+        regions,
+        n_equal,
+        int(np.count_nonzero(ranks & NEARLY_EQUAL_BIT)),
+    )
+
+
+def _ranks(triangulation: Triangulation, equal_within: float) -> np.ndarray:
+    if not 0.0 <= equal_within < 1.0:
+        raise InputError(
+            f"equal_within is {equal_within!r}: give a share of a length, at least 0 and below 1."
+        )
+    return triangulation.edge_ranks(equal_within)
+
+
+def _n_equal(ranks: np.ndarray) -> int:
+    """Count the triangles with more than one longest edge."""
+    longest = ranks & LONGEST
+    return int(np.count_nonzero(longest & (longest - np.uint8(1))))
+
+
+def _checked(sizes: np.ndarray) -> np.ndarray:
+    if len(sizes) == 0:
+        raise InputError(
+            "A path does not end: the neighbors of the mesh are not those of its triangles. Make "
+            "the mesh by Triangulation.from_arrays."
+        )
+    return sizes

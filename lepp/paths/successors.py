@@ -1,0 +1,88 @@
+"""Paths where every triangle has one longest edge: all are followed at once."""
+
+import numpy as np
+
+from lepp.jit import kernel
+
+# Rounds over all unfinished paths before the rest, if any are longer, are walked one by one.
+_ROUNDS = 40
+
+
+def single_edges(ranks: np.ndarray) -> np.ndarray:
+    """Return the longest edge of each triangle, (m,) uint8, from ranks that have one each."""
+    return (ranks & np.uint8(7)) >> np.uint8(1)  # 1, 2, 4 -> 0, 1, 2
+
+
+@kernel
+def step_over(neighbors, edges):
+    """Return the neighbour of each triangle across one of its edges, (m,) int32."""
+    successors = np.empty(len(edges), np.int32)
+    for t in range(len(edges)):
+        successors[t] = neighbors[t, edges[t]]
+    return successors
+
+
+@kernel
+def follow(successors, ends):
+    """Follow all paths; return the LEPP sizes, (m,) int32; none if a path does not end.
+
+    Paths are short, and all are followed at once, a step a round, without a branch to mispredict.
+    What is left after some rounds is walked, each path to the first triangle whose size is known
+    and then again to write the sizes down: linear for a path of any length.
+
+    Parameters
+    ----------
+    successors : (m,) int32 ndarray
+        Two triangles that share the longest edge of both succeed each other.
+    ends : (m,) or (0,) int32 ndarray, output
+        The last triangle of each path; of a terminal pair the one with the smaller index. Not
+        wanted if empty.
+    """
+    m = len(successors)
+    wanted = len(ends) > 0
+    sizes = np.zeros(m, np.int32)
+    pending = np.empty(m + 1, np.int32)
+    n_pending = 0
+    for t in range(m):
+        s = successors[t]
+        on = max(s, 0)
+        known = sizes[on]
+        terminal = successors[on] == t
+        size = known + 1 if known > 0 else 0
+        size = 2 if terminal else size
+        size = 1 if s < 0 else size
+        sizes[t] = size
+        if wanted:
+            end = min(s, t) if terminal else ends[on]
+            ends[t] = t if s < 0 else end
+        pending[n_pending] = t
+        n_pending += size == 0
+    for _ in range(_ROUNDS):
+        n_before, n_pending = n_pending, 0
+        for k in range(n_before):
+            t = pending[k]
+            s = successors[t]
+            known = sizes[s]
+            size = known + 1 if known > 0 else 0
+            sizes[t] = size
+            if wanted:
+                ends[t] = ends[s]
+            pending[n_pending] = t
+            n_pending += size == 0
+    for k in range(n_pending):
+        steps = 0
+        last = pending[k]
+        while sizes[last] == 0:
+            last = successors[last]
+            steps += 1
+            if steps > m:
+                return sizes[:0]
+        size = sizes[last] + steps
+        t = pending[k]
+        while sizes[t] == 0:
+            sizes[t] = size
+            if wanted:
+                ends[t] = ends[last]
+            size -= 1
+            t = successors[t]
+    return sizes

@@ -1,0 +1,287 @@
+"""The command line, ``lepp-study``.
+
+Everything heavy is imported inside the commands, so that ``--help`` answers at once.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from study.design.design import Design
+    from study.run.runner import Listener, Summary
+
+EXIT_BAD_INPUT = 2
+EXIT_FAILED_TASKS = 3
+EXIT_INTERRUPTED = 130
+
+
+class Commands(click.Group):
+    """A group of commands that answers a user's mistake with one sentence."""
+
+    def invoke(self, ctx: click.Context) -> Any:  # noqa: ANN401 - as click declares it
+        """Run a command; print the sentence of an `InputError` and exit with 2."""
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
+            click.echo("Stopped.", err=True)
+            ctx.exit(EXIT_INTERRUPTED)
+        except ValueError as error:
+            from lepp import InputError
+
+            if not isinstance(error, InputError):
+                raise
+            click.echo(f"Error: {error}", err=True)
+            ctx.exit(EXIT_BAD_INPUT)
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find a command; list the known ones if there is none of that name."""
+        if args and self.get_command(ctx, args[0]) is None and not args[0].startswith("-"):
+            known = ", ".join(self.list_commands(ctx))
+            ctx.fail(f"There is no command {args[0]!r}; the commands are {known}.")
+        return super().resolve_command(ctx, args)
+
+
+@click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="lepp-study")
+def main() -> None:
+    """Study the longest-edge propagation path (LEPP) of random triangulations."""
+
+
+@main.command()
+@click.argument("directory", required=False, type=click.Path(path_type=Path))
+@click.option(
+    "--preset",
+    metavar="NAME",
+    help="A design that comes with lepp-study: paper (if "
+    "nothing else is said), delaunay, both, or smoke, which takes seconds.",
+)
+@click.option(
+    "--config",
+    metavar="FILE",
+    type=click.Path(path_type=Path),
+    help="A design of your own, a TOML file.",
+)
+@click.option("--seed", metavar="N", type=int, help="Another seed than the design's.")
+@click.option(
+    "--workers",
+    metavar="N",
+    type=click.IntRange(min=1),
+    help="Worker processes on this computer; one a core if not given.",
+)
+@click.option(
+    "--scheduler",
+    metavar="ADDRESS",
+    help="Run on the Dask cluster of this scheduler, such as tcp://10.0.0.1:8786.",
+)
+def run(
+    directory: Path | None,
+    preset: str | None,
+    config: Path | None,
+    seed: int | None,
+    workers: int | None,
+    scheduler: str | None,
+) -> None:
+    """Run a study into DIRECTORY and write its report.
+
+    DIRECTORY is results/NAME if not given. A run that was cut short goes on where it stopped, and
+    tasks that failed are tried again. The exit code is 0 if every task succeeded, 2 for bad input,
+    3 if tasks failed, and 130 after Ctrl-C.
+    """
+    start = perf_counter()
+    design, directory = _choose(directory, preset, config, seed)
+    from reports.cli.progress import progress
+
+    with progress() as listener:
+        summary = _run(directory, design, workers, scheduler, listener)
+    computed = perf_counter()
+    path = _write_report(directory)
+    _print_summary(summary, computed - start, perf_counter() - computed)
+    click.echo(f"Report: {path}")
+    if summary.failures:
+        raise SystemExit(EXIT_FAILED_TASKS)
+
+
+@main.command()
+@click.argument("directory", type=click.Path(path_type=Path))
+def report(directory: Path) -> None:
+    """Write the report of the results in DIRECTORY again."""
+    click.echo(f"Report: {_write_report(directory)}")
+
+
+@main.command()
+@click.option(
+    "--points",
+    metavar="N",
+    type=click.IntRange(min=3),
+    default=200_000,
+    show_default=True,
+    help="Points of a set.",
+)
+@click.option(
+    "--repeats",
+    metavar="N",
+    type=click.IntRange(min=1),
+    default=5,
+    show_default=True,
+    help="Times that each is measured; the median counts.",
+)
+def bench(points: int, repeats: int) -> None:
+    """Measure this machine: triangulation and LEPP against scipy.spatial.Delaunay."""
+    from rich.console import Console
+    from rich.table import Table
+
+    from study.run import benchmark
+
+    rows = benchmark.run(points, repeats)
+    name, *numbers = rows[0]
+    table = Table(title=f"{points:,} uniform points, one core")
+    table.add_column(name, no_wrap=True)
+    for number in numbers:
+        table.add_column(number, justify="right")
+    for row in rows:
+        table.add_row(*row.values())
+    console = Console()
+    # Elsewhere than on a terminal, rich takes lines to have 80 characters.
+    console.print(table, width=None if console.is_terminal else 110)
+
+
+def _choose(
+    directory: Path | None, preset: str | None, config: Path | None, seed: int | None
+) -> tuple[Design, Path]:
+    """Find the design that the options mean, and the directory for its results."""
+    from lepp import InputError
+    from study.design.design import Design
+    from study.results.store import design_of
+
+    if preset is not None and config is not None:
+        raise InputError("Give --preset or --config, not both: each is a whole design.")
+    if config is not None:
+        design, name = Design.from_toml(config), config.stem
+    elif preset is None and directory is not None and (found := design_of(directory)) is not None:
+        design, name = found, directory.name
+    else:
+        name = preset or "paper"
+        design = Design.from_preset(name)
+    if seed is not None:
+        design = design.with_seed(seed)
+    return design, directory or Path("results") / name
+
+
+def _run(
+    directory: Path,
+    design: Design,
+    workers: int | None,
+    scheduler: str | None,
+    listener: Listener,
+) -> Summary:
+    from study.run.runner import run as run_design
+
+    try:
+        return run_design(
+            directory, design, workers=workers, scheduler=scheduler, listener=listener
+        )
+    except KeyboardInterrupt:
+        click.echo(
+            f"\nStopped. What is finished is kept in {directory}; the same command goes on from "
+            "there.",
+            err=True,
+        )
+        raise SystemExit(EXIT_INTERRUPTED) from None
+
+
+def _write_report(directory: Path) -> Path:
+    from reports.study_page.page import write_report
+
+    return write_report(directory)
+
+
+def _print_summary(summary: Summary, run_seconds: float, report_seconds: float) -> None:
+    if summary.n_computed:
+        ideal = summary.kernel_seconds / summary.n_threads
+        total = run_seconds + report_seconds
+        click.echo(
+            f"{summary.n_computed:,} triangulations, {summary.n_points:,} points, in "
+            f"{total:.1f} s ({report_seconds:.1f} s of it the report). The tasks' own time is "
+            f"{summary.kernel_seconds:.1f} s, {ideal:.1f} s on each of {summary.n_threads} "
+            f"workers: the whole took {total / ideal:.2f} times that."
+        )
+    else:
+        click.echo("Everything was computed already.")
+    if summary.failures:
+        click.echo(f"{len(summary.failures):,} tasks failed; the same command tries them again:")
+        for outcome in summary.failures[:5]:
+            click.echo(f"  {' '.join(map(str, outcome.task))}: {outcome.error}")
+        if len(summary.failures) > 5:
+            click.echo(f"  and {len(summary.failures) - 5:,} more (column error of the results)")
+
+
+@main.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option(
+    "--html",
+    metavar="OUT",
+    type=click.Path(path_type=Path),
+    help="Write a page with the mesh drawn.",
+)
+@click.option(
+    "--json",
+    "json_file",
+    metavar="[OUT]",
+    is_flag=False,
+    flag_value="-",
+    type=click.Path(path_type=Path, allow_dash=True),
+    help="Write the numbers as JSON, instead of the text where no file is named.",
+)
+@click.option(
+    "--output",
+    metavar="OUT",
+    type=click.Path(path_type=Path),
+    help="Write the mesh with its paths as data of the cells (.vtu, .vtk, .xdmf or .msh).",
+)
+@click.option("--split-quads", is_flag=True, help="Split each quad into two triangles.")
+@click.option(
+    "--merge-points/--keep-points",
+    default=None,
+    help="Join points with the same coordinates, or leave the mesh cut there.",
+)
+@click.option(
+    "--drop-duplicates",
+    is_flag=True,
+    help="Leave out triangles that repeat another or have the same point twice.",
+)
+@click.option(
+    "--ignore-volumes", is_flag=True, help="Take the triangles of a mesh that has tetrahedra too."
+)
+def mesh(
+    file: Path,
+    html: Path | None,
+    json_file: Path | None,
+    output: Path | None,
+    split_quads: bool,
+    merge_points: bool | None,
+    drop_duplicates: bool,
+    ignore_volumes: bool,
+) -> None:
+    """Say how far one refinement of the mesh in FILE spreads.
+
+    FILE is a mesh of triangles in any format that meshio reads: VTK, VTU, Gmsh, OBJ, PLY, STL, OFF,
+    Medit, Abaqus, XDMF and more; in the plane, or a surface in space.
+    """
+    from reports.mesh_page.command import answer
+    from study.meshes.read import ReadOptions
+
+    options = ReadOptions(
+        split_quads=split_quads,
+        ignore_volumes=ignore_volumes,
+        drop_duplicates=drop_duplicates,
+        repeated_points="refuse" if merge_points is None else "merge" if merge_points else "keep",
+    )
+    for line in answer(file, options, html=html, json_file=json_file, output=output):
+        click.echo(line, err=json_file == Path("-"))

@@ -1,0 +1,1 @@
+"""What is said of one mesh, on the terminal and on a page."""

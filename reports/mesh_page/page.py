@@ -1,0 +1,153 @@
+"""The page of one mesh: one HTML file with the mesh drawn, coloured by LEPP size."""
+
+import base64
+import zlib
+from collections.abc import Iterable
+
+import numpy as np
+
+from reports.mesh_page import findings
+from reports.page.assets import environment, static
+from reports.page.blocks import ALWAYS, Facts, Prose, Tiles
+from reports.text.numbers import show
+from study.meshes.survey import Survey
+
+MOST_DRAWN = 100_000
+"""Triangles that a browser draws at once without a pause; of larger meshes a part is shown."""
+
+_MOST_CLASSES = 5  # shades that can be told apart
+_STEPS = 60  # of the longest path that the table shows
+_OUTSIDE = -4  # a successor that is not drawn; -1 to -3 stand for a longest edge on the boundary
+
+
+def render(found: Survey) -> str:
+    """Make the page's HTML; the same for the same mesh."""
+    drawn = drawn_triangles(found)
+    return (
+        environment()
+        .get_template("mesh.html.j2")
+        .render(
+            static=static,
+            name=found.mesh.path.name,
+            headline=findings.headline(found),
+            tiles=Tiles({ALWAYS: findings.tiles(found)}),
+            spread=_prose(findings.spread(found)),
+            worst=_prose(findings.worst(found)),
+            regions=_prose(findings.regions(found)),
+            theory=_prose(findings.theory(found)),
+            facts=Facts(tuple(findings.facts(found))),
+            notes=found.mesh.notes,
+            space=found.triangulation.points.shape[1] == 3,
+            n_drawn=len(drawn),
+            whole=len(drawn) == len(found.triangulation),
+            n_triangles=len(found.triangulation),
+            sizes=_histogram(found.counts.counts),
+            region_sizes=_histogram(np.bincount(found.region_sizes)),
+            path=_path_rows(found),
+            n_path=len(found.worst_path),
+            drawing=drawing(found, drawn),
+            data=packed(found, drawn),
+        )
+    )
+
+
+def drawn_triangles(found: Survey, most: int = MOST_DRAWN) -> np.ndarray:
+    """Return the triangles to draw: all, or those around the longest path, ascending."""
+    triangulation = found.triangulation
+    if len(triangulation) <= most:
+        return np.arange(len(triangulation))
+    centers = triangulation.points[triangulation.triangles].mean(axis=1)
+    path = found.worst_path[:most]
+    distances = ((centers - centers[path].mean(axis=0)) ** 2).sum(axis=1)
+    distances[path] = -1.0
+    return np.sort(np.argsort(distances, kind="stable")[:most])
+
+
+def size_classes(largest: int) -> list[tuple[int, int]]:
+    """Return the first and last size of each shade: one each, or doubling where there are many."""
+    if largest <= _MOST_CLASSES:
+        return [(size, size) for size in range(1, largest + 1)]
+    starts = [1, 2, 3, 5, 9] if largest <= 16 else [1, 3, 5, 9, 17]
+    starts = [start for start in starts if start <= largest]
+    ends = [start - 1 for start in starts[1:]] + [largest]
+    return list(zip(starts, ends, strict=True))
+
+
+def drawing(found: Survey, drawn: np.ndarray) -> dict[str, object]:
+    """Describe the drawing to the page's script."""
+    return {
+        "points": len(np.unique(found.triangulation.triangles[drawn])),
+        "triangles": len(drawn),
+        "dimensions": found.triangulation.points.shape[1],
+        "classes": size_classes(found.counts.max),
+        "worst": int(np.searchsorted(drawn, found.worst_path[0])),
+        "whole": len(drawn) == len(found.triangulation),
+    }
+
+
+def packed(found: Survey, drawn: np.ndarray) -> str:
+    """Pack the arrays that the page draws, compressed, as base64.
+
+    Little-endian, one after the other: coordinates (float32, between -1 and 1), vertices,
+    successors (as places in what is drawn; -1, -2, -3 where the longest edge, across from vertex
+    0, 1, 2, is on the boundary), sizes, and the triangles' own numbers (int32).
+    """
+    triangles = found.triangulation.triangles[drawn]
+    used, vertices = np.unique(triangles, return_inverse=True)
+    points = found.triangulation.points[used]
+    low, high = points.min(axis=0), points.max(axis=0)
+    middle = low / 2 + high / 2
+    points = (points - middle) / max(float((high / 2 - low / 2).max()), np.finfo(float).tiny)
+    arrays = (
+        points.astype("<f4"),
+        vertices.astype("<i4"),
+        _successors(found, drawn).astype("<i4"),
+        found.paths.sizes[drawn].astype("<i4"),
+        drawn.astype("<i4"),
+    )
+    content = b"".join(array.tobytes() for array in arrays)
+    return base64.b64encode(zlib.compress(content, 9)).decode("ascii")
+
+
+def _successors(found: Survey, drawn: np.ndarray) -> np.ndarray:
+    place = np.full(len(found.triangulation), _OUTSIDE)
+    place[drawn] = np.arange(len(drawn))
+    successors = found.paths.successors[drawn]
+    edges = found.paths.terminal_edges[found.paths.regions[drawn]]
+    triangles = found.triangulation.triangles[drawn]
+    across = (triangles[:, :, None] != edges[:, None, :]).all(axis=2).argmax(axis=1)
+    return np.where(successors < 0, -1 - across, place[np.maximum(successors, 0)])
+
+
+def _prose(sentence: str) -> Prose:
+    return Prose({ALWAYS: [sentence]})
+
+
+def _histogram(counts: np.ndarray) -> list[dict[str, object]]:
+    rows = findings.size_rows(counts)
+    most = max(share for _, _, share, _ in rows)
+    return [
+        {
+            "size": size,
+            "number": f"{number:,}",
+            "share": show(share, "percent2"),
+            "below": show(below, "percent2"),
+            "bar": f"{100 * share / most:.1f}",
+        }
+        for size, number, share, below in rows
+    ]
+
+
+def _path_rows(found: Survey) -> Iterable[tuple[str, ...]]:
+    triangulation = found.triangulation
+    for step, t in enumerate(found.worst_path[:_STEPS], 1):
+        vertices = triangulation.triangles[t]
+        centre = triangulation.points[vertices].mean(axis=0)
+        yield (
+            f"{step:,}",
+            f"{t:,}",
+            f"{found.mesh.blocks[t]}",
+            f"{found.mesh.cells[t]:,}",
+            ", ".join(f"{vertex:,}" for vertex in vertices),
+            ", ".join(show(float(x), "g5") for x in centre),
+        )

@@ -1,0 +1,108 @@
+"""A mesh's survey on the terminal."""
+
+from dataclasses import replace
+
+import numpy as np
+from rich import box
+from rich.console import Console
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+import lepp
+from reports.mesh_page import findings
+from reports.text.numbers import show
+from study.meshes.survey import Survey
+
+_OPTIONS = {
+    "quads": "--split-quads splits each into two triangles",
+    "repeated points": "--merge-points joins them, --keep-points leaves the mesh cut there",
+    "copies": "--drop-duplicates leaves them out",
+    "collapsed triangles": "--drop-duplicates leaves them out",
+}
+
+
+def in_options(error: lepp.MeshError) -> lepp.MeshError:
+    """Say what to do about a mesh in terms of the command's options, where there is one."""
+    problems = []
+    for problem in error.problems:
+        remedy = _OPTIONS.get(problem.kind, problem.remedy)
+        remedy = remedy.replace("give ignore_volumes=True to take", "--ignore-volumes takes")
+        problems.append(replace(problem, remedy=remedy))
+    return lepp.MeshError(problems)
+
+
+def print_survey(found: Survey) -> None:
+    """Print what the paths of a mesh say: with rules on a terminal, plain elsewhere."""
+    console = Console(highlight=False)
+    _print(console, findings.headline(found), style="bold")
+    _print(console, ". ".join(f"{name}: {value}" for name, value in findings.facts(found)) + ".")
+    for note in found.mesh.notes:
+        _print(console, f"Note: {note}")
+    _print_part(console, "How far refinements spread", findings.spread(found))
+    console.print(_sizes(console, found.counts.counts))
+    _print_part(console, "The longest path", findings.worst(found))
+    console.print(_path(console, found))
+    _print_part(console, "Where the paths end", findings.regions(found))
+    _print_part(console, "Theory", findings.theory(found))
+
+
+def _print(console: Console, text: str, style: str = "") -> None:
+    """Print a paragraph, in lines only where somebody reads it at once."""
+    console.print(Text(_plain(text), style=style), soft_wrap=not console.is_terminal)
+
+
+def _print_part(console: Console, title: str, paragraph: str) -> None:
+    console.print()
+    _print(console, title, style="bold")
+    _print(console, paragraph)
+
+
+def _table(console: Console, *columns: str) -> Table:
+    table = Table(
+        box=box.SIMPLE_HEAD if console.is_terminal else None, pad_edge=False, header_style="bold"
+    )
+    for column in columns:
+        table.add_column(column, justify="right", no_wrap=True)
+    return table
+
+
+def _sizes(console: Console, counts: np.ndarray) -> Padding:
+    table = _table(console, "LEPP size", "Triangles", "Share", "Up to this size")
+    for name, number, share, below in findings.size_rows(counts):
+        table.add_row(
+            name, f"{number:,}", _plain(show(share, "percent2")), _plain(show(below, "percent2"))
+        )
+    return _indented(console, table)
+
+
+def _path(console: Console, found: Survey) -> Padding:
+    """Make a table of the longest path's first triangles and its last."""
+    table = _table(console, "Step", "Triangle", "Block", "Cell", "Points", "Centre")
+    triangulation, path = found.triangulation, found.worst_path
+    shown = range(len(path)) if len(path) <= 24 else [*range(22), None, len(path) - 1]
+    for step in shown:
+        if step is None:
+            table.add_row(*["…"] * 6)
+            continue
+        t = path[step]
+        vertices = triangulation.triangles[t]
+        centre = triangulation.points[vertices].mean(axis=0)
+        table.add_row(
+            f"{step + 1:,}",
+            f"{t:,}",
+            f"{found.mesh.blocks[t]}",
+            f"{found.mesh.cells[t]:,}",
+            " ".join(map(str, vertices)),
+            " ".join(f"{x:.6g}" for x in centre),
+        )
+    return _indented(console, table)
+
+
+def _indented(console: Console, table: Table) -> Padding:
+    above = 0 if console.is_terminal else 1  # there a table has an empty line of its own
+    return Padding(table, (above, 0, 0, 2), expand=False)
+
+
+def _plain(text: str) -> str:
+    return text.replace("\u00a0", " ")

@@ -1,0 +1,160 @@
+"""What a section of the page is made of: sentences, tiles, tables and figures.
+
+A text or a figure that depends on the switch is a mapping from a view's key to its variant;
+`ALWAYS` is the key of what every view shows alike.
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+from markupsafe import Markup
+
+from reports.page.style import Spec
+from reports.page.views import View
+
+ALWAYS = "*"
+
+
+@dataclass(frozen=True)
+class Prose:
+    """Paragraphs; one list of them a view."""
+
+    paragraphs: dict[str, list[str | Markup]]
+    kind: str = "prose"
+
+
+@dataclass(frozen=True)
+class Tile:
+    """One key figure: a number, what it is, and what to hold it against."""
+
+    value: str
+    label: str
+    context: str = ""
+
+
+@dataclass(frozen=True)
+class Tiles:
+    """Key figures in a row; one list of them a view."""
+
+    tiles: dict[str, list[Tile]]
+    kind: str = "tiles"
+
+
+@dataclass(frozen=True)
+class Facts:
+    """Names and values that no view changes."""
+
+    facts: tuple[tuple[str, str], ...]
+    kind: str = "facts"
+
+
+@dataclass(frozen=True)
+class TableBlock:
+    """A table of the data block.
+
+    Attributes
+    ----------
+    table : str
+        Name of the table.
+    caption : str
+    columns : tuple of str
+        The columns to show; all when empty. The download always has all.
+    follows : tuple of str
+        The switches that pick the rows shown.
+    folded : bool
+        Whether the reader has to open it.
+    where : dict
+        Values of further columns that pick the rows shown.
+    printed_whole : bool
+        Whether a print-out has all rows, however many there are.
+    """
+
+    table: str
+    caption: str
+    columns: tuple[str, ...] = ()
+    follows: tuple[str, ...] = ("method", "distribution")
+    folded: bool = False
+    where: dict[str, object] = field(default_factory=dict)
+    printed_whole: bool = False
+    kind: str = "table"
+
+
+@dataclass(frozen=True)
+class FigureBlock:
+    """A plot, the finding it shows, and its data.
+
+    Attributes
+    ----------
+    id : str
+        Stable id of the element, ``figure-4``.
+    title : str
+        ``Figure 4. …``
+    specs : dict of str to Spec
+        The plot for each view; a view without one is said to be missing.
+    alternatives : dict of str to str
+        What the plot shows, in words, for each view.
+    reading : str
+        How to read it, in a sentence.
+    data : tuple of TableBlock
+        The tables of its data, shown under a fold.
+    """
+
+    id: str
+    title: str
+    specs: dict[str, Spec]
+    alternatives: dict[str, str]
+    reading: str
+    data: tuple[TableBlock, ...]
+    kind: str = "figure"
+
+    @property
+    def height(self) -> int:
+        """Height in CSS pixels, kept free before the plot is drawn."""
+        return max((spec["layout"]["height"] for spec in self.specs.values()), default=0)
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A drawing that is part of the page's markup, from a template of its own."""
+
+    id: str
+    template: str
+    context: dict[str, object]
+    title: str
+    alternatives: dict[str, str]
+    reading: str
+    data: tuple[TableBlock, ...] = ()
+    kind: str = "drawing"
+
+
+Block = Prose | Tiles | Facts | TableBlock | FigureBlock | Drawing
+
+
+@dataclass(frozen=True)
+class Subsection:
+    """A heading and its blocks."""
+
+    id: str
+    title: str
+    blocks: tuple[Block, ...]
+
+
+@dataclass(frozen=True)
+class Section:
+    """A part of the page that answers one question."""
+
+    id: str
+    title: str
+    question: str
+    parts: tuple[Subsection, ...]
+
+
+def per_view(views: Iterable[View], make: Callable[[View], object]) -> dict:
+    """Make a variant for each view, leaving out those that cannot be made (None)."""
+    made = {view.key: make(view) for view in views}
+    return {key: value for key, value in made.items() if value is not None}
+
+
+def common(*paragraphs: str | Markup) -> Prose:
+    """Paragraphs that every view shows."""
+    return Prose({ALWAYS: list(paragraphs)})

@@ -1,0 +1,231 @@
+"""The house style of the page's plots, as Plotly specifications.
+
+They are plain dictionaries: plotly's own figure objects say the same, but take thirty times as
+long to build. The tests hold every one of them against plotly's schema.
+
+Colours are names of the style sheet's variables; the page's script puts the light or the dark
+theme's colours in their place. Series differ by colour and by dash or symbol, never by colour
+alone.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from reports.text.numbers import thousands
+
+Spec = dict[str, Any]
+
+INK = "var(--ink)"
+MUTED = "var(--muted)"
+SURFACE = "var(--surface)"
+BAND = "var(--band)"
+SERIES = tuple(f"var(--series-{k})" for k in range(1, 6))
+SCALE = [[k / 4, f"var(--scale-{k})"] for k in range(5)]
+DASHES = ("solid", "dash", "dot", "dashdot", "longdash")
+SYMBOLS = ("circle", "diamond", "square", "triangle-up", "x")
+#: Legend above the plot; Plotly's own place beside it takes a third of a narrow screen.
+_LEGEND = {"orientation": "h", "x": 0, "xanchor": "left", "y": 1.02, "yanchor": "bottom"}
+_CLEAR = "rgba(0,0,0,0)"
+
+
+@dataclass(frozen=True)
+class Level:
+    """A dotted line across a plot at a value, with its name at the right end."""
+
+    y: float
+    name: str = ""
+    above: bool = True
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One pair of axes of a figure, and what is drawn in it."""
+
+    traces: Sequence[Spec]
+    xaxis: Spec
+    yaxis: Spec
+    title: str = ""
+    levels: Sequence[Level] = field(default=())
+    height: float = 1.0
+
+
+def scatter(**attributes: Any) -> Spec:  # noqa: ANN401 - Plotly's attributes are of any type
+    """Trace of points and lines."""
+    return {"type": "scatter", **attributes}
+
+
+def bars(**attributes: Any) -> Spec:  # noqa: ANN401 - as above
+    """Trace of bars."""
+    return {"type": "bar", **attributes}
+
+
+def box(**attributes: Any) -> Spec:  # noqa: ANN401 - as above
+    """Trace of box plots."""
+    return {"type": "box", **attributes}
+
+
+def heatmap(**attributes: Any) -> Spec:  # noqa: ANN401 - as above
+    """Trace of a grid of colours."""
+    return {"type": "heatmap", **attributes}
+
+
+def axis(title: str, **more: Any) -> Spec:  # noqa: ANN401 - as above
+    """Axis in the house style."""
+    return {
+        "automargin": True,
+        "gridcolor": "var(--grid)",
+        "linecolor": MUTED,
+        "tickcolor": MUTED,
+        "ticks": "outside",
+        "ticklen": 4,
+        "zeroline": False,
+        "showline": True,
+        "title": {"text": title, "standoff": 10, "font": {"size": 13}},
+        **more,
+    }
+
+
+def powers(title: str) -> Spec:
+    """Logarithmic axis, a tick a power of ten."""
+    return axis(title, type="log", dtick=1, exponentformat="power")
+
+
+def sizes_axis(sizes: Iterable[int], title: str) -> Spec:
+    """Axis with equal steps from one size to the next, whatever their distance."""
+    ordered = [int(size) for size in sizes]
+    shown = range(0, len(ordered), -(-len(ordered) // 10))  # ten labels fit on a telephone
+    return axis(
+        title,
+        type="category",
+        categoryorder="array",
+        categoryarray=ordered,
+        tickvals=list(shown),
+        ticktext=[thousands(ordered[k]) for k in shown],
+    )
+
+
+def plot(
+    *traces: Spec,
+    xaxis: Spec,
+    yaxis: Spec,
+    levels: Sequence[Level] = (),
+    **layout: Any,  # noqa: ANN401 - as above
+) -> Spec:
+    """Make a figure of one panel; `layout` has further settings of Plotly's layout."""
+    return panels([Panel(traces, xaxis, yaxis, levels=levels)], **layout)
+
+
+def panels(
+    parts: Sequence[Panel],
+    columns: int = 1,
+    height: int = 380,
+    **layout: Any,  # noqa: ANN401 - as above
+) -> Spec:
+    """Make a figure of panels, row by row.
+
+    Parameters
+    ----------
+    parts : sequence of Panel
+    columns : int
+    height : int
+        Of the whole figure in CSS pixels; the width is the page's.
+    **layout
+        Further settings of Plotly's layout.
+    """
+    names = {trace.get("name") for part in parts for trace in part.traces}
+    titled = any(part.title for part in parts)
+    legend = len(names) > 1
+    spec: Spec = {
+        "data": [],
+        "layout": {
+            "height": height,
+            "font": {"color": INK, "size": 13},
+            "paper_bgcolor": _CLEAR,
+            "plot_bgcolor": _CLEAR,
+            "margin": {"l": 12, "r": 12, "t": 16 + 20 * titled + 24 * (legend and titled), "b": 12},
+            "hovermode": "closest",
+            "hoverlabel": {"bgcolor": SURFACE, "bordercolor": MUTED, "font": {"color": INK}},
+            "legend": _LEGEND | {"bgcolor": _CLEAR} | ({"y": 1 + 40 / height} if titled else {}),
+            "showlegend": legend,
+            "shapes": [],
+            "annotations": [],
+            **layout,
+        },
+    }
+    gap = (64 if titled else 44) / height
+    for k, (part, (x, y)) in enumerate(zip(parts, _domains(parts, columns, gap), strict=True)):
+        _place(spec, part, "" if k == 0 else str(k + 1), x, y)
+        if k + columns < len(parts):  # the panel below names what both have along x
+            axis_name = f"xaxis{'' if k == 0 else k + 1}"
+            spec["layout"][axis_name] = spec["layout"][axis_name] | {"title": {"text": ""}}
+    return spec
+
+
+def _place(spec: Spec, part: Panel, number: str, x: list[float], y: list[float]) -> None:
+    layout = spec["layout"]
+    few = {"nticks": 4, "tickangle": 0} if x[1] - x[0] < 0.9 else {}  # narrow on a telephone
+    layout[f"xaxis{number}"] = part.xaxis | few | {"domain": x, "anchor": f"y{number}"}
+    layout[f"yaxis{number}"] = part.yaxis | {"domain": y, "anchor": f"x{number}"}
+    spec["data"] += [
+        trace | ({"xaxis": f"x{number}", "yaxis": f"y{number}"} if number else {})
+        for trace in part.traces
+    ]
+    if part.title:
+        layout["annotations"].append(
+            _note(part.title, x=sum(x) / 2, y=y[1], yshift=4, yanchor="bottom", xanchor="center")
+        )
+    across = {"xref": f"x{number} domain", "yref": f"y{number}"}
+    for level in part.levels:
+        line = {"color": MUTED, "width": 1.5, "dash": "dot"}
+        layout["shapes"].append(
+            {"type": "line", "x0": 0, "x1": 1, "y0": level.y, "y1": level.y, "line": line, **across}
+        )
+        if level.name:
+            anchor = "bottom" if level.above else "top"
+            note = _note(level.name, x=1, y=level.y, yanchor=anchor, xanchor="right")
+            note["font"] = {"color": MUTED, "size": 12}
+            layout["annotations"].append(note | across)
+
+
+def _note(text: str, **place: Any) -> Spec:  # noqa: ANN401 - as above
+    return {"text": text, "showarrow": False, "xref": "paper", "yref": "paper", **place}
+
+
+def _domains(
+    parts: Sequence[Panel], columns: int, gap_y: float
+) -> list[tuple[list[float], list[float]]]:
+    """Where each panel lies, as shares of the figure, the first row on top."""
+    gap_x = 0.12
+    rows = [parts[k : k + columns] for k in range(0, len(parts), columns)]
+    width = (1 - gap_x * (columns - 1)) / columns
+    share = (1 - gap_y * (len(rows) - 1)) / sum(row[0].height for row in rows)
+    domains = []
+    top = 1.0
+    for row in rows:
+        bottom = top - share * row[0].height
+        for column in range(len(row)):
+            left = column * (width + gap_x)
+            # Rounding errors must not lead beyond 0 and 1, which Plotly refuses.
+            domains.append(([left, min(left + width, 1.0)], [max(bottom, 0.0), top]))
+        top = bottom - gap_y
+    return domains
+
+
+def marker(series: int, size: float = 7, **more: Any) -> Spec:  # noqa: ANN401 - as above
+    """Marker of a series."""
+    return {"color": SERIES[series], "symbol": SYMBOLS[series], "size": size, **more}
+
+
+def line(series: int, width: float = 2) -> Spec:
+    """Line of a series."""
+    return {"color": SERIES[series], "dash": DASHES[series], "width": width}
+
+
+def band(x: object, low: object, high: object, name: str) -> list[Spec]:
+    """Two traces that fill the space between two curves."""
+    edge = {"mode": "lines", "line": {"width": 0, "color": BAND}, "hoverinfo": "skip", "x": x}
+    return [
+        scatter(y=low, showlegend=False, name=name, **edge),
+        scatter(y=high, fill="tonexty", fillcolor=BAND, name=name, **edge),
+    ]

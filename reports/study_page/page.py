@@ -1,0 +1,125 @@
+"""The report: one HTML file that holds everything it needs, and the tables beside it as CSV."""
+
+import importlib.util
+import os
+import tempfile
+from functools import cache
+from pathlib import Path
+
+from reports.page.assets import environment, static
+from reports.page.blocks import FigureBlock, Section
+from reports.page.data import ColumnIndex, compress, encode, table_data
+from reports.page.evidence import Evidence
+from reports.page.views import DISTRIBUTION_NAMES, METHOD_NAMES
+from reports.study_page import sections
+from reports.study_page.gather import gather
+from study.analysis.table import Table
+
+
+def write_report(directory: Path) -> Path:
+    """Write ``tables/*.csv`` and ``report.html`` of a results directory.
+
+    Parameters
+    ----------
+    directory : Path
+        A directory that `study.run.runner.run` made, finished or not.
+
+    Returns
+    -------
+    Path
+        The report. The same results give the same bytes.
+
+    Raises
+    ------
+    InputError
+        If the directory holds no results that can be read, or cannot be written.
+    """
+    evidence = gather(directory)
+    write_tables(directory / "tables", evidence.tables)
+    report = directory / "report.html"
+    write_whole(report, render(evidence))
+    return report
+
+
+def render(evidence: Evidence) -> str:
+    """Make the page's HTML."""
+    parts = sections.all_sections(evidence)
+    return (
+        environment()
+        .get_template("page.html.j2")
+        .render(
+            title=sections.TITLE,
+            description=sections.description(evidence),
+            alarms=sections.alarms(evidence),
+            colophon=sections.COLOPHON,
+            sections=parts,
+            views=evidence.views,
+            first=evidence.views[0].key,
+            switches=_switches(evidence),
+            static=static,
+            data=encode(page_data(evidence, parts)),
+            plotly=_plotly(),
+        )
+    )
+
+
+def page_data(evidence: Evidence, parts: list[Section]) -> dict:
+    """Everything that the page's script draws: tables, and figures that refer to them."""
+    index = ColumnIndex(evidence.tables, evidence.selections)
+    figures = {
+        block.id: {key: index.replace(spec) for key, spec in block.specs.items()}
+        for section in parts
+        for part in section.parts
+        for block in part.blocks
+        if isinstance(block, FigureBlock)
+    }
+    tables = {name: table_data(table) for name, table in evidence.tables.items()}
+    return {"tables": tables, "figures": figures}
+
+
+def write_tables(folder: Path, tables: dict[str, Table]) -> None:
+    """Write each table as CSV, and remove those that an earlier report left."""
+    folder.mkdir(exist_ok=True)
+    for name, table in tables.items():
+        write_whole(folder / f"{name}.csv", table.to_csv())
+    for old in sorted(folder.glob("*.csv")):
+        if old.stem not in tables:
+            old.unlink()
+
+
+def write_whole(path: Path, text: str) -> None:
+    """Write a file so that nobody ever sees half of it."""
+    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+        os.chmod(name, 0o644)
+        os.replace(name, path)
+    except BaseException:
+        Path(name).unlink(missing_ok=True)
+        raise
+
+
+def _switches(evidence: Evidence) -> list[dict]:
+    return [
+        _switch("distribution", "Distribution", evidence.design.distributions, DISTRIBUTION_NAMES),
+        _switch("method", "Triangulation", evidence.design.methods, METHOD_NAMES),
+    ]
+
+
+def _switch(name: str, title: str, values: tuple[str, ...], names: dict[str, str]) -> dict:
+    options = []
+    for value in values:
+        short, _, rest = names[value].partition(" ")
+        options.append({"value": value, "short": short, "rest": rest})
+    return {"name": name, "title": title, "options": options}
+
+
+@cache
+def _plotly() -> str:
+    # By its path: importing plotly costs more than all of the page.
+    package = importlib.util.find_spec("plotly")
+    assert package is not None, "plotly is a dependency"
+    assert package.origin is not None, "plotly is a regular package"
+    source = Path(package.origin).parent / "package_data" / "plotly.min.js"
+    return compress(source.read_text(encoding="utf-8"))

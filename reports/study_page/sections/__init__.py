@@ -1,0 +1,83 @@
+"""The sections of the page, in the order in which a reader asks."""
+
+from reports.page.blocks import Section
+from reports.page.evidence import Evidence
+from reports.page.views import distribution_name
+from reports.study_page.sections import (
+    agreement,
+    data,
+    found,
+    methods,
+    provenance,
+    regions,
+    regressions,
+    statistics,
+    theory,
+)
+from reports.text.numbers import count, large, listed
+
+TITLE = "How far does one refinement spread?"
+COLOPHON = (
+    "Made by lepp-study. Plots by Plotly.js (MIT licence), which is part of this file: the page "
+    "needs no network."
+)
+
+_MOST_ALARMS = 6
+
+
+def all_sections(evidence: Evidence) -> list[Section]:
+    """Make every section that the run gives reason for."""
+    modules = [found, agreement, theory, statistics, regressions]
+    if len(evidence.design.methods) > 1:
+        modules.append(methods)
+    modules += [regions, data, provenance]
+    return [module.section(evidence) for module in modules]
+
+
+def description(evidence: Evidence) -> str:
+    """Say in a sentence what was studied."""
+    overview = evidence.rows("overview")
+    done, asked = int(overview["triangulations"].sum()), evidence.design.n_tasks
+    made = (
+        count(done, "random triangulation")
+        if done == asked
+        else f"{done:,} of {asked:,} random triangulations"
+    )
+    sizes = evidence.design.sizes
+    of = f"{sizes[0]:,} to {sizes[-1]:,}" if len(sizes) > 1 else f"{sizes[0]:,}"
+    return (
+        f"{made} of {of} points, {large(overview['triangles'].sum())} triangles in all: the "
+        "longest-edge propagation path (LEPP) of every one of them, measured, and held against the "
+        "published theory and statistics."
+    )
+
+
+def alarms(evidence: Evidence) -> list[str]:
+    """Say what is missing, the tasks first; a full run that only lacks a fit has no alarm."""
+    rows = evidence.rows("missing")
+    if rows.empty:
+        return []
+    tasks = rows[rows["what"] == "triangulations"]
+    said = [
+        f"{_whose(evidence, row.distribution, row.method)}{row.why}." for row in tasks.itertuples()
+    ]
+    others = rows[rows["what"] != "triangulations"]
+    # That means show no saturation is a finding, and what was not asked for is not missed.
+    others = others[~others["what"].str.contains("saturating")]
+    others = others[others["distribution"].isin(evidence.design.distributions)]
+    lacking: dict[str, list[str]] = {}
+    for row in others.drop_duplicates(["what", "distribution"]).itertuples():
+        lacking.setdefault(row.why, []).append(row.what)
+    for why, whats in lacking.items():
+        said.append(f"Not computed: {listed(list(dict.fromkeys(whats)))}, because {why}.")
+    if len(said) > _MOST_ALARMS:
+        rest = len(said) - _MOST_ALARMS + 1
+        said = [*said[: _MOST_ALARMS - 1], f"{rest} more, listed under “How it was made”."]
+    return said
+
+
+def _whose(evidence: Evidence, distribution: str, method: str) -> str:
+    names = [distribution_name(distribution)]
+    if len(evidence.design.methods) > 1:
+        names.append(method)
+    return f"{', '.join(names)}: "

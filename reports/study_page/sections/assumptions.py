@@ -1,0 +1,125 @@
+"""What analysis of variance supposes: equal variances and normal groups (Tables 2 and 3)."""
+
+import numpy as np
+
+from reports.page import style
+from reports.page.blocks import FigureBlock, Prose, Subsection, TableBlock, per_view
+from reports.page.evidence import Evidence
+from reports.page.style import Spec
+from reports.page.views import View
+from reports.text.numbers import count, none_or, show
+
+
+def assumptions(evidence: Evidence) -> Subsection:
+    """Levene's and Shapiro-Wilk's tests, and a QQ plot."""
+    return Subsection(
+        "assumptions",
+        "Are the groups normal and equally spread?",
+        (
+            Prose(per_view(evidence.views, lambda view: _assumptions(evidence, view))),
+            TableBlock(
+                "levene",
+                "Table 2. Levene's test of equal variances",
+                columns=(
+                    "center",
+                    "df_group",
+                    "df_residual",
+                    "f",
+                    "log10_p",
+                    "equal_variances",
+                ),
+            ),
+            _qq(evidence),
+            TableBlock("shapiro", "Table 3. Shapiro-Wilk test of each group", folded=True),
+        ),
+    )
+
+
+def _assumptions(evidence: Evidence, view: View) -> list[str] | None:
+    said = []
+    levene = evidence.rows("levene", view)
+    if not levene.empty:
+        unequal = levene["equal_variances"] == "rejected"
+        first = levene.iloc[0]
+        numbers = (
+            f"Levene's F({first['df_group']}, {first['df_residual']}) is "
+            f"{show(first['f'], 'fixed2')}, p\u00a0=\u00a0{show(first['log10_p'], 'log10p')}"
+        )
+        if unequal.all():
+            said.append(
+                f"The groups' variances are not equal: {numbers}. The spread between "
+                f"triangulations {_trend(evidence, view)}, and the classical analysis of variance "
+                "supposes that it does not change; the tests below that do without are the ones to "
+                "read."
+            )
+        elif unequal.any():
+            said.append(
+                f"Whether the groups' variances are equal depends on the centre: {numbers}."
+            )
+        else:
+            said.append(f"Equal variances of the groups are not rejected: {numbers}.")
+    shapiro = evidence.rows("shapiro", view)
+    if not shapiro.empty:
+        below = int((shapiro["p"] < 0.05).sum())
+        rejected = int((shapiro["normal"] == "rejected").sum())
+        said.append(
+            f"Shapiro-Wilk gives p below 0.05 in {none_or(below)} of "
+            f"{count(len(shapiro), 'group')}; one in twenty would by chance. After Holm's "
+            f"correction {none_or(rejected)} {'is' if rejected == 1 else 'are'} rejected as normal."
+        )
+    return said or None
+
+
+def _trend(evidence: Evidence, view: View) -> str:
+    spread = evidence.rows("groups", view)["sd_between"].dropna()
+    first, last = show(spread.iloc[0], "fixed4"), show(spread.iloc[-1], "fixed4")
+    direction = "falls" if spread.iloc[-1] < spread.iloc[0] else "rises"
+    return f"{direction} with their size, from {first} to {last}"
+
+
+def _qq(evidence: Evidence) -> FigureBlock:
+    def draw(view: View) -> Spec | None:
+        rows = evidence.rows("qq", view)
+        if rows.empty:
+            return None
+        reach = float(np.abs(rows["normal_quantile"]).max()) * 1.05
+        return style.plot(
+            style.scatter(
+                x=[-reach, reach],
+                y=[-reach, reach],
+                mode="lines",
+                name="normal",
+                line={"color": style.INK, "dash": "dash", "width": 1.5},
+                hoverinfo="skip",
+            ),
+            style.scatter(
+                x=rows["normal_quantile"],
+                y=rows["standardised_mean"],
+                mode="markers",
+                name="triangulations",
+                marker=style.marker(0, 5, opacity=0.6),
+                hovertemplate="%{x:.2f}: %{y:.2f}<extra></extra>",
+            ),
+            xaxis=style.axis("Normal quantile"),
+            yaxis=style.axis("Mean LEPP size, in SDs of its group"),
+            height=400,
+        )
+
+    def say(view: View) -> str | None:
+        rows = evidence.rows("qq", view)
+        if len(rows) < 3:
+            return None
+        straight = float(np.corrcoef(rows["normal_quantile"], rows["standardised_mean"])[0, 1])
+        return (
+            f"The {count(len(rows), 'mean')}, each in its group's standard deviations, lie along "
+            f"the diagonal with a correlation of {show(straight, 'fixed4')}."
+        )
+
+    return FigureBlock(
+        id="figure-qq",
+        title="Normal QQ plot of the mean LEPP sizes",
+        specs=per_view(evidence.views, draw),
+        alternatives=per_view(evidence.views, say),
+        reading="Normal values would lie on the dashed line.",
+        data=(TableBlock("qq", "Data of the QQ plot"),),
+    )

@@ -1,0 +1,90 @@
+"""How it was made: design, seed, versions, and what did not work out."""
+
+from itertools import pairwise
+
+from reports.page.blocks import Facts, Section, Subsection, TableBlock, common
+from reports.page.evidence import Evidence
+from reports.page.views import distribution_word, method_word
+from reports.text.numbers import count, listed
+
+
+def section(evidence: Evidence) -> Section:
+    """Design, completeness, environment."""
+    parts = [
+        Subsection("design", "Design", (_design(evidence),)),
+        Subsection("completeness", "Completeness", _completeness(evidence)),
+        Subsection("environment", "Environment", _environments(evidence)),
+    ]
+    return Section("made", "How it was made", "Can I make it again?", tuple(parts))
+
+
+def _design(evidence: Evidence) -> Facts:
+    design = evidence.design
+    facts = [
+        ("Triangulation", listed([method_word(name) for name in design.methods])),
+        ("Distributions", listed([distribution_word(d) for d in design.distributions])),
+        ("Numbers of points", _sizes(design.sizes)),
+        ("Repetitions", f"{design.repetitions:,} point sets for each distribution and size"),
+        ("Seed", str(design.seed)),
+        ("Triangulations", f"{design.n_tasks:,} of {design.n_points:,} points in all"),
+    ]
+    if "bivariate_normal" in design.distributions:
+        facts.append(("Correlation of x and y", f"{design.correlation:g} (bivariate normal)"))
+    facts.append(
+        (
+            "Random numbers",
+            "NumPy's PCG64DXSM; a point set's own seed follows from the study's seed, its "
+            "distribution, size and repetition, so it depends on nothing else",
+        )
+    )
+    return Facts(tuple(facts))
+
+
+def _sizes(sizes: tuple[int, ...]) -> str:
+    steps = {second - first for first, second in pairwise(sizes)}
+    if len(sizes) > 3 and len(steps) == 1:
+        return f"{sizes[0]:,} to {sizes[-1]:,} in steps of {steps.pop():,} ({len(sizes)} sizes)"
+    return listed([f"{size:,}" for size in sizes])
+
+
+def _completeness(evidence: Evidence) -> tuple:
+    overview = evidence.rows("overview")
+    asked, done, failed = (int(overview[c].sum()) for c in ("asked", "triangulations", "failed"))
+    repeated = int(overview["repeated_points"].sum())
+    said = (
+        f"All {count(asked, 'triangulation')} were made; none failed."
+        if done == asked
+        else f"Of {count(asked, 'triangulation')}, {done:,} were made, {failed:,} failed and "
+        f"{asked - done - failed:,} have not been run."
+    )
+    left_out = (
+        f" {count(repeated, 'point')} that repeated another of the same set "
+        f"{'was' if repeated == 1 else 'were'} left out."
+        if repeated
+        else ""
+    )
+    blocks: list = [
+        common(said + left_out),
+        TableBlock("overview", "The study at a glance", follows=()),
+    ]
+    if evidence.has("missing"):
+        blocks.append(TableBlock("missing", "What could not be computed, and why", follows=()))
+    if evidence.has("failures"):
+        blocks.append(TableBlock("failures", "Tasks that failed", follows=()))
+    return tuple(blocks)
+
+
+def _environments(evidence: Evidence) -> tuple:
+    blocks: list = []
+    for environment in evidence.manifest.get("environments", ()):
+        facts = [
+            ("Python", f"{environment['python']} ({environment['implementation']})"),
+            ("System", f"{environment['system']}, {environment['machine']}"),
+            *((name, version) for name, version in environment["packages"].items()),
+        ]
+        blocks.append(Facts(tuple(facts)))
+    if len(blocks) > 1:
+        blocks.insert(
+            0, common("The run was taken up again in another environment; all are listed.")
+        )
+    return tuple(blocks)

@@ -1,0 +1,129 @@
+"""Are the points random: the runs and Kolmogorov-Smirnov tests of every point set (Table 1)."""
+
+from reports.page import style
+from reports.page.blocks import ALWAYS, FigureBlock, Prose, Subsection, TableBlock, per_view
+from reports.page.evidence import Evidence
+from reports.page.style import Spec
+from reports.page.views import View
+from reports.text.numbers import count, listed, none_or, show
+
+
+def randomness(evidence: Evidence) -> Subsection:
+    """All tests in a sentence, in a plot of their p-values and in a table."""
+    return Subsection(
+        "randomness",
+        "Are the points random?",
+        (
+            _randomness(evidence),
+            _uniformity(evidence),
+            TableBlock(
+                "randomness",
+                "Table 1. Tests of randomness and of fit",
+                columns=(
+                    "distribution",
+                    "test",
+                    "coordinate",
+                    "tests",
+                    "below",
+                    "share_below",
+                    "share_low",
+                    "share_high",
+                    "uniform_p",
+                    "verdict",
+                ),
+                follows=(),
+            ),
+        ),
+    )
+
+
+def _randomness(evidence: Evidence) -> Prose:
+    row = evidence.one("randomness", distribution="all")
+    if row is None:
+        return Prose({})
+    chance = (
+        "which is what chance alone leads one to expect"
+        if row["verdict"] == "not rejected"
+        else "which chance alone does not explain"
+    )
+    return Prose(
+        {
+            ALWAYS: [
+                f"Of {count(row['tests'], 'test')} of all point sets, "
+                f"{count(row['below'], 'p-value falls', 'p-values fall')} below 0.05: "
+                f"{show(row['share_below'], 'percent2')} "
+                f"(95\u00a0% interval {show(row['share_low'], 'percent2')} to "
+                f"{show(row['share_high'], 'percent2')}), {chance}. "
+                f"About {show(row['expected_below'], 'int')} had to, even with perfect points. "
+                f"After Holm's correction {none_or(row['rejected_holm'])} "
+                f"{'reject' if row['rejected_holm'] > 1 else 'rejects'}."
+            ]
+        }
+    )
+
+
+def _uniformity(evidence: Evidence) -> FigureBlock:
+    def draw(view: View) -> Spec | None:
+        rows = evidence.rows("uniformity", view)
+        if rows.empty:
+            return None
+        tests = list(dict.fromkeys(rows["test"]))
+        return style.panels(
+            [_evenness(evidence, view, test, first=test == tests[0]) for test in tests],
+            height=500,
+            bargap=0.25,
+        )
+
+    def say(view: View) -> str | None:
+        rows = evidence.rows("randomness", view)
+        if rows.empty:
+            return None
+        odd = rows[rows["uniform_p"] < 0.05]
+        names = [f"{row.test} of {row.coordinate}" for row in odd.itertuples()]
+        found = (
+            f"all {len(rows)} families of p-values are as even as chance allows "
+            f"(lowest p of uniformity {show(rows['uniform_p'].min(), 'p')})"
+            if not names
+            else f"the p-values of {listed(names)} are less even than chance would have them "
+            f"(p {listed([show(p, 'p') for p in odd['uniform_p']])})"
+        )
+        return f"For {view.distribution_word} points, {found}."
+
+    return FigureBlock(
+        id="figure-uniformity",
+        title="Are the p-values uniform?",
+        specs=per_view(evidence.views, draw),
+        alternatives=per_view(evidence.views, say),
+        reading="If the points are random, the bars are level with the dashed line, give or take.",
+        data=(TableBlock("uniformity", "Data: p-values counted in steps of 0.05"),),
+    )
+
+
+def _evenness(evidence: Evidence, view: View, test: str, *, first: bool) -> style.Panel:
+    traces = []
+    for series, coordinate in enumerate(("x", "y")):
+        rows = evidence.rows("uniformity", view, test=test, coordinate=coordinate)
+        traces.append(
+            style.bars(
+                x=rows["p_from"],
+                y=rows["count"],
+                name=coordinate,
+                offsetgroup=coordinate,
+                legendgroup=coordinate,
+                showlegend=first,
+                marker={"color": style.SERIES[series], "pattern": {"shape": ("", "/")[series]}},
+                hovertemplate="p from %{x:.2f}: %{y} tests<extra></extra>",
+            )
+        )
+    traces.append(
+        style.scatter(
+            x=rows["p_from"],
+            y=rows["expected"],
+            mode="lines",
+            name="expected",
+            line={"color": style.INK, "dash": "dash", "width": 1.5},
+            showlegend=first,
+            hoverinfo="skip",
+        )
+    )
+    return style.Panel(traces, style.axis("p-value"), style.axis("Tests"), f"{test} test")

@@ -1,0 +1,240 @@
+"""The regressions: how the mean grows with n, and what each model makes of larger n (Table 7)."""
+
+import numpy as np
+import pandas as pd
+
+from reports.page import style
+from reports.page.blocks import FigureBlock, Prose, Section, Subsection, TableBlock, per_view
+from reports.page.evidence import Evidence
+from reports.page.style import Spec
+from reports.page.views import View
+from reports.text.numbers import listed, show, ten_to
+
+MODELS = ("linear", "quadratic", "logistic", "logarithmic", "saturating")
+_LEAST_SQUARES = "least squares"
+
+
+def section(evidence: Evidence) -> Section:
+    """Fits inside the data, projections beyond them."""
+    return Section(
+        "regressions",
+        "The regressions",
+        "How does the mean grow with the number of points?",
+        (
+            Subsection(
+                "fits",
+                "Inside the data",
+                (
+                    Prose(per_view(evidence.views, lambda view: _fits(evidence, view))),
+                    _figure_6(evidence),
+                    TableBlock(
+                        "regressions",
+                        "Table 7. The models",
+                        columns=(
+                            "model",
+                            "fitting",
+                            "formula",
+                            "adj_r2",
+                            "log10_p",
+                            "lack_of_fit_p",
+                            "aic",
+                            "bic",
+                            "left_out_rmse",
+                        ),
+                    ),
+                    TableBlock(
+                        "coefficients", "Coefficients of the models, with intervals", folded=True
+                    ),
+                ),
+            ),
+            Subsection(
+                "projections",
+                "Beyond the data",
+                (
+                    Prose(per_view(evidence.views, lambda view: _beyond(evidence, view))),
+                    _figure_7(evidence),
+                    TableBlock("limits", "What each model says of an infinite mesh", folded=True),
+                ),
+            ),
+        ),
+    )
+
+
+def best(evidence: Evidence, view: View, column: str = "aic") -> pd.Series | None:
+    """Return the least squares fit with the lowest AIC (or another column)."""
+    rows = evidence.rows("regressions", view, fitting=_LEAST_SQUARES)
+    rows = rows.dropna(subset=[column]) if not rows.empty else rows
+    return None if rows.empty else rows.loc[rows[column].idxmin()]
+
+
+def _fits(evidence: Evidence, view: View) -> list[str] | None:
+    rows = evidence.rows("regressions", view, fitting=_LEAST_SQUARES)
+    if rows.empty:
+        return None
+    by = {name: best(evidence, view, name) for name in ("aic", "bic", "left_out_rmse")}
+    names = {name: row["model"] for name, row in by.items() if row is not None}
+    four = rows[rows["model"] != "saturating"]
+    said = []
+    if not four.empty:
+        top = four.loc[four["adj_r2"].idxmax()]
+        said.append(
+            f"Of the paper's four models the {top['model']} one fits the {view.distribution_word} "
+            f"points best, with an adjusted R² of {show(top['adj_r2'], 'fixed3')}."
+        )
+    winners = set(names.values())
+    labels = {"aic": "AIC", "bic": "BIC", "left_out_rmse": "the error of left-out groups"}
+    if len(winners) == 1:
+        said.append(
+            f"AIC, BIC and the error of left-out groups all choose the {winners.pop()} model."
+        )
+    elif winners:
+        said.append(
+            "The criteria do not agree: "
+            + listed([f"{labels[name]} chooses the {model} model" for name, model in names.items()])
+            + "."
+        )
+    lacking = rows[rows["lack_of_fit_p"] < 0.05]["model"].tolist()
+    if lacking:
+        said.append(
+            f"The {listed(lacking)} {'model does' if len(lacking) == 1 else 'models do'} not "
+            "follow the groups' means: lack of fit is significant at 0.05."
+        )
+    return [" ".join(said)]
+
+
+def _figure_6(evidence: Evidence) -> FigureBlock:
+    def draw(view: View) -> Spec | None:
+        groups = evidence.rows("groups", view)
+        curves = _curves(evidence, view, "data")
+        if not curves:
+            return None
+        return style.plot(
+            style.scatter(
+                x=groups["n_points"],
+                y=groups["mean_lepp"],
+                mode="markers",
+                name="groups",
+                marker={"color": style.INK, "size": 7},
+                error_y={
+                    "type": "data",
+                    "symmetric": False,
+                    "thickness": 1,
+                    "width": 0,
+                    "color": style.MUTED,
+                    "array": groups["mean_high"] - groups["mean_lepp"],
+                    "arrayminus": groups["mean_lepp"] - groups["mean_low"],
+                },
+                hovertemplate="%{x:,} points: %{y:.4f}<extra></extra>",
+            ),
+            *curves,
+            xaxis=style.axis("Number of points"),
+            yaxis=style.axis("Mean LEPP size"),
+            height=440,
+        )
+
+    def say(view: View) -> str | None:
+        curves = evidence.rows("curves", view, view="data")
+        if curves.empty:
+            return None
+        wide = curves.pivot_table(index="n_points", columns="model", values="prediction")
+        gap = float((wide.max(axis=1) - wide.min(axis=1)).max())
+        return f"Inside the data the models lie within {show(gap, 'fixed4')} of one another."
+
+    return FigureBlock(
+        id="figure-6",
+        title="Figure 6. The models inside the data",
+        specs=per_view(evidence.views, draw),
+        alternatives=per_view(evidence.views, say),
+        reading="Dots are the groups' means with 95\u00a0% intervals, curves least squares fits.",
+        data=(TableBlock("curves", "Data of Figures 6 and 7: points of the curves"),),
+    )
+
+
+def _figure_7(evidence: Evidence) -> FigureBlock:
+    def draw(view: View) -> Spec | None:
+        curves = _curves(evidence, view, "projection")
+        if not curves:
+            return None
+        groups = evidence.rows("groups", view)
+        return style.plot(
+            *curves,
+            style.scatter(
+                x=groups["n_points"],
+                y=groups["mean_lepp"],
+                mode="markers",
+                name="groups",
+                marker={"color": style.INK, "size": 5},
+                hovertemplate="%{x:,} points: %{y:.4f}<extra></extra>",
+            ),
+            xaxis=style.powers("Number of points"),
+            yaxis=style.axis("Mean LEPP size", range=[1.8, 4.2]),
+            levels=(
+                style.Level(4, "upper bound 4"),
+                style.Level(2, "lower bound 2", above=False),
+            ),
+            height=440,
+        )
+
+    def say(view: View) -> str | None:
+        limits = evidence.rows("limits", view, fitting=_LEAST_SQUARES)
+        far = evidence.rows("projections", view, fitting=_LEAST_SQUARES)
+        if limits.empty or far.empty:
+            return None
+        far = far[far["n_points"] == far["n_points"].max()].set_index("model")
+        words = [
+            f"the {row.model} one {row.limit.replace('undecided', 'stays undecided')} "
+            f"({show(far.at[row.model, 'prediction'], 'g4')} there"
+            + (f", {show(row.value, 'fixed4')} in the end)" if row.value == row.value else ")")
+            for row in limits.itertuples()
+        ]
+        return (
+            f"Far beyond the data, drawn up to {ten_to(int(np.log10(far['n_points'].iloc[0])))} "
+            f"points: {listed(words)}."
+        )
+
+    return FigureBlock(
+        id="figure-7",
+        title="Figure 7. The models far beyond the data",
+        specs=per_view(evidence.views, draw),
+        alternatives=per_view(evidence.views, say),
+        reading="A curve beyond the dotted bounds is at odds with Theorem 2 if p\u00a0≥\u00a01/3.",
+        data=(TableBlock("projections", "What each model predicts, with intervals"),),
+    )
+
+
+def _curves(evidence: Evidence, view: View, part: str) -> list[Spec]:
+    curves = []
+    for series, model in enumerate(MODELS):
+        rows = evidence.rows("curves", view, model=model, view=part)
+        if not rows.empty:
+            curves.append(
+                style.scatter(
+                    x=rows["n_points"],
+                    y=rows["prediction"],
+                    mode="lines",
+                    name=model,
+                    line=style.line(series),
+                    hovertemplate="%{x:,} points: %{y:.4f}<extra>" + model + "</extra>",
+                )
+            )
+    return curves
+
+
+def _beyond(evidence: Evidence, view: View) -> list[str] | None:
+    chosen = best(evidence, view)
+    rows = evidence.rows("projections", view, fitting=_LEAST_SQUARES)
+    if chosen is None or rows.empty:
+        return None
+    far = rows[rows["n_points"] == rows["n_points"].max()]
+    power = ten_to(int(np.log10(far["n_points"].iloc[0])))
+    words = [f"{show(row.prediction, 'g4')} ({row.model})" for row in far.itertuples()]
+    mine = rows[rows["model"] == chosen["model"]]
+    steps = [
+        f"{show(row.prediction, 'fixed4')} at {ten_to(int(np.log10(row.n_points)))}"
+        for row in mine.itertuples()
+    ]
+    return [
+        f"At {power} points the models predict a mean of {listed(words)}. "
+        f"The {chosen['model']} model, which has the lowest AIC, predicts "
+        f"{listed(steps)} points."
+    ]

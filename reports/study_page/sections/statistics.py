@@ -1,0 +1,185 @@
+"""The statistics: what the paper tests (Tables 1 to 3, 5, 6), and what it should have tested."""
+
+import numpy as np
+
+from reports.page import style
+from reports.page.blocks import FigureBlock, Prose, Section, Subsection, TableBlock, per_view
+from reports.page.evidence import Evidence
+from reports.page.style import Spec
+from reports.page.views import View
+from reports.study_page.sections.assumptions import assumptions
+from reports.study_page.sections.randomness import randomness
+from reports.text.numbers import count, listed, show
+
+
+def section(evidence: Evidence) -> Section:
+    """Randomness, assumptions, equality of the means, bounds."""
+    return Section(
+        "statistics",
+        "The statistics",
+        "Do the tests hold?",
+        (
+            randomness(evidence),
+            assumptions(evidence),
+            Subsection(
+                "anova",
+                "Does the mean depend on the number of points?",
+                (
+                    Prose(per_view(evidence.views, lambda view: _anova(evidence, view))),
+                    TableBlock(
+                        "anova",
+                        "Table 5. Analysis of variance, three ways",
+                        columns=(
+                            "test",
+                            "df_group",
+                            "df_residual",
+                            "statistic",
+                            "log10_p",
+                            "effect",
+                            "effect_size",
+                            "effect_low",
+                            "effect_high",
+                        ),
+                    ),
+                    _pairs(evidence),
+                ),
+            ),
+            Subsection(
+                "bounds",
+                "Is the mean between 2 and 4?",
+                (
+                    Prose(per_view(evidence.views, lambda view: _bounds(evidence, view))),
+                    TableBlock(
+                        "bounds",
+                        "Table 6. t tests of every group against 2 and 4",
+                        columns=(
+                            "n_points",
+                            "bound",
+                            "alternative",
+                            "t",
+                            "df",
+                            "log10_p",
+                            "log10_p_bonferroni",
+                            "verdict",
+                            "mean_lepp",
+                            "mean_low",
+                            "mean_high",
+                        ),
+                        folded=True,
+                    ),
+                ),
+            ),
+        ),
+    )
+
+
+def _anova(evidence: Evidence, view: View) -> list[str] | None:
+    rows = evidence.rows("anova", view).drop_duplicates("test")
+    if rows.empty:
+        return None
+    differ = rows["log10_p"] < np.log10(0.05)
+    tests = listed([f"{row.test} ({show(row.log10_p, 'log10p')})" for row in rows.itertuples()])
+    verdict = (
+        "The mean LEPP size does depend on the number of points"
+        if differ.all()
+        else "No test shows that the mean LEPP size depends on the number of points"
+        if not differ.any()
+        else "The tests disagree on whether the mean LEPP size depends on the number of points"
+    )
+    said = [f"{verdict}, for {view.distribution_word} points; p by test: {tests}."]
+    effect = evidence.one("anova", view, effect="omega squared")
+    groups = evidence.rows("groups", view)["mean_lepp"].dropna()
+    if effect is not None and len(groups) > 1:
+        said.append(
+            f"The number of points accounts for {show(effect['effect_size'], 'percent0')} of the "
+            f"variance between triangulations. The dependence is small in itself: the groups' "
+            f"means span {show(groups.min(), 'fixed4')} to {show(groups.max(), 'fixed4')}."
+        )
+    return said
+
+
+def _pairs(evidence: Evidence) -> FigureBlock:
+    def draw(view: View) -> Spec | None:
+        pairs = evidence.rows("pairs", view)
+        if pairs.empty:
+            return None
+        alike = evidence.rows("pairs", view, different="not shown")
+        sizes = sorted({*pairs["n_points_1"], *pairs["n_points_2"]})
+        return style.plot(
+            style.heatmap(
+                x=pairs["n_points_1"],
+                y=pairs["n_points_2"],
+                z=pairs["difference"],
+                customdata=pairs["p"],
+                colorscale=style.SCALE,
+                xgap=1,
+                ygap=1,
+                colorbar={
+                    "title": {"text": "Difference<br>of means"},
+                    "thickness": 12,
+                    "outlinewidth": 0,
+                    "tickformat": ".3f",
+                },
+                hovertemplate="%{y} − %{x}: %{z:.4f}, p %{customdata:.2g}<extra></extra>",
+            ),
+            style.scatter(
+                x=alike["n_points_1"],
+                y=alike["n_points_2"],
+                mode="text",
+                text="·",
+                textfont={"size": 15, "color": style.INK},
+                name="not shown to differ",
+                hoverinfo="skip",
+            ),
+            xaxis=style.sizes_axis(sizes, "Points, first group"),
+            yaxis=style.sizes_axis(sizes, "Points, second group"),
+            showlegend=False,
+            height=520,
+        )
+
+    def say(view: View) -> str | None:
+        pairs = evidence.rows("pairs", view)
+        if pairs.empty:
+            return None
+        differ = int((pairs["different"] == "yes").sum())
+        largest = pairs.loc[pairs["difference"].abs().idxmax()]
+        return (
+            f"{differ} of {count(len(pairs), 'pair')} of groups differ (95\u00a0% level for all "
+            f"together). The largest difference, {show(largest['difference'], 'fixed4')}, is that "
+            f"of {largest['n_points_2']:,} and {largest['n_points_1']:,} points."
+        )
+
+    return FigureBlock(
+        id="figure-pairs",
+        title="Which groups differ? Games-Howell comparisons",
+        specs=per_view(evidence.views, draw),
+        alternatives=per_view(evidence.views, say),
+        reading="A square is the second group's mean less the first's; a dot marks pairs that "
+        "cannot be told apart.",
+        data=(TableBlock("pairs", "Data: all pairs"),),
+    )
+
+
+def _bounds(evidence: Evidence, view: View) -> list[str] | None:
+    said = []
+    for bound, side in ((4, "below"), (2, "above")):
+        rows = evidence.rows("bounds", view, bound=bound)
+        if rows.empty:
+            continue
+        rejected = int((rows["verdict"] == "rejected").sum())
+        weakest = rows["log10_p_bonferroni"].max()
+        where = (
+            "every group" if rejected == len(rows) else f"{rejected} of {count(len(rows), 'group')}"
+        )
+        said.append(
+            f"In {where} of {view.distribution_word} points the mean is significantly {side} "
+            f"{bound}; the largest p is {show(weakest, 'log10p')}, corrected for all tests."
+        )
+    rows = evidence.rows("bounds", view, bound=4)
+    if not rows.empty:
+        said.append(
+            "A p-value says only that the mean is not the bound; its interval says how far it is: "
+            f"over all groups they reach from {show(rows['mean_low'].min(), 'fixed4')} "
+            f"to {show(rows['mean_high'].max(), 'fixed4')}."
+        )
+    return [" ".join(said)] if said else None

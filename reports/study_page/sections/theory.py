@@ -1,0 +1,339 @@
+"""The theory against the measurement: Theorems 1 and 2, the geometric law, the worst case."""
+
+from reports.page import style
+from reports.page.blocks import FigureBlock, Prose, Section, Subsection, TableBlock, per_view
+from reports.page.evidence import Evidence
+from reports.page.style import Spec
+from reports.page.views import View
+from reports.study_page.sections.worst_case import worst_case
+from reports.text.numbers import listed, show
+
+STATISTICS = ("mean", "standard deviation", "skewness", "excess kurtosis")
+
+
+def section(evidence: Evidence) -> Section:
+    """Types of neighbours, moments, termination, the law, bounds, the worst case."""
+    largest: dict[str, object] = {"n_points": max(evidence.design.sizes)}
+    return Section(
+        "theory",
+        "The theory",
+        "Do the theorems describe what happens?",
+        (
+            Subsection(
+                "types",
+                "How often does a path end?",
+                (
+                    Prose(per_view(evidence.views, lambda view: _premise(evidence, view))),
+                    _types(evidence),
+                    TableBlock("theorem_2", "Theorem 2: its premise and its bounds", folded=True),
+                ),
+            ),
+            Subsection(
+                "theorem-1",
+                "Theorem 1: four moments from one share",
+                (
+                    Prose(per_view(evidence.views, lambda view: _theorem_1(evidence, view))),
+                    TableBlock(
+                        "theorem_1",
+                        f"Theorem 1 and the measurement at {max(evidence.design.sizes):,} points",
+                        where=largest,
+                    ),
+                    _moments(evidence),
+                ),
+            ),
+            Subsection(
+                "steps",
+                "Step by step",
+                (_termination(evidence), _law(evidence)),
+            ),
+            worst_case(evidence),
+        ),
+    )
+
+
+def _premise(evidence: Evidence, view: View) -> list[str] | None:
+    rows = evidence.rows("theorem_2", view)
+    if rows.empty:
+        return None
+    p = rows.iloc[-1]
+    holds = rows["premise"].value_counts()
+    premise = (
+        "so the premise of Theorem 2, p\u00a0≥\u00a01/3, holds in every group"
+        if holds.get("yes", 0) == len(rows)
+        else "so the premise of Theorem 2, p\u00a0≥\u00a01/3, fails in every group"
+        if holds.get("no", 0) == len(rows)
+        else "so the premise of Theorem 2, p\u00a0≥\u00a01/3, is clear in "
+        f"{int(holds.get('yes', 0) + holds.get('no', 0))} of {len(rows)} groups"
+    )
+    kept = rows["bounds"] == "yes"
+    outcome = (
+        "Its bounds hold in every single triangulation: means from "
+        f"{show(rows['lowest_mean'].min(), 'fixed4')} to "
+        f"{show(rows['highest_mean'].max(), 'fixed4')}, standard deviations up to "
+        f"{show(rows['highest_sd'].max(), 'fixed4')}, where √6 is {show(6**0.5, 'fixed4')}."
+        if kept.all()
+        else f"Its bounds are broken in {int((~kept).sum())} of {len(rows)} groups."
+    )
+    return [
+        "A path ends at a neighbour of type C: one whose own longest edge is the edge that is "
+        f"crossed. At {p['n_points']:,} {view.distribution_word} points the share of such "
+        f"neighbours is p\u00a0=\u00a0{show(p['p_type_c'], 'fixed4')}, {premise}. {outcome}"
+    ]
+
+
+def _types(evidence: Evidence) -> FigureBlock:
+    def draw(view: View) -> Spec | None:
+        traces = []
+        for series, name in enumerate("ABC"):
+            rows = evidence.rows("neighbor_types", view, type=name)
+            if rows.empty:
+                return None
+            traces.append(
+                style.scatter(
+                    x=rows["n_points"],
+                    y=rows["share"],
+                    mode="lines+markers",
+                    name=f"type {name}",
+                    line=style.line(series),
+                    marker=style.marker(series),
+                    hovertemplate="%{x:,} points: %{y:.2%}<extra>type " + name + "</extra>",
+                )
+            )
+        return style.plot(
+            *traces,
+            xaxis=style.axis("Number of points"),
+            yaxis=style.axis(
+                "Share of longest-edge neighbours", tickformat=".0%", rangemode="tozero"
+            ),
+            levels=[style.Level(1 / 3, "p = 1/3")],
+        )
+
+    def say(view: View) -> str | None:
+        rows = evidence.rows("neighbor_types", view)
+        if rows.empty:
+            return None
+        last = rows[rows["n_points"] == rows["n_points"].max()]
+        shares = [f"{show(row.share, 'percent2')} of type {row.type}" for row in last.itertuples()]
+        return (
+            f"At {last['n_points'].iloc[0]:,} points, {listed(shares)}. A neighbour is of type A, "
+            "B or C when the crossed edge is its shortest, middle or longest."
+        )
+
+    return FigureBlock(
+        id="figure-types",
+        title="Types of longest-edge neighbours",
+        specs=per_view(evidence.views, draw),
+        alternatives=per_view(evidence.views, say),
+        reading="The dotted line is the least share of type C that Theorem 2 supposes.",
+        data=(TableBlock("neighbor_types", "Data: shares of the types by number of points"),),
+    )
+
+
+def _theorem_1(evidence: Evidence, view: View) -> list[str] | None:
+    rows = evidence.rows("theorem_1", view)
+    if rows.empty:
+        return None
+    last = rows[rows["n_points"] == rows["n_points"].max()]
+    off = [
+        f"the {row.statistic} {show(abs(row.relative_difference), 'percent1')} "
+        f"{'above' if row.relative_difference > 0 else 'below'}"
+        for row in last.itertuples()
+    ]
+    differences = last["relative_difference"]
+    verdict = (
+        "It describes the measurement closely"
+        if differences.abs().max() < 0.01
+        else "It puts all four too high"
+        if (differences < 0).all()
+        else "It puts all four too low"
+        if (differences > 0).all()
+        else "It misses, now on one side and now on the other"
+    )
+    return [
+        f"Theorem 1 makes all four moments out of p alone. {verdict}: at "
+        f"{last['n_points'].iloc[0]:,} points the measured values lie, against the theorem's, "
+        f"{listed(off)}."
+    ]
+
+
+def _moments(evidence: Evidence) -> FigureBlock:
+    def draw(view: View) -> Spec | None:
+        if evidence.rows("theorem_1", view).empty:
+            return None
+        return style.panels(
+            [_moment(evidence, view, name) for name in STATISTICS], columns=2, height=540
+        )
+
+    def say(view: View) -> str | None:
+        rows = evidence.rows("theorem_1", view)
+        if rows.empty:
+            return None
+        inside = int(
+            ((rows["low"] <= rows["predicted"]) & (rows["predicted"] <= rows["high"])).sum()
+        )
+        return (
+            f"Theorem 1's value lies inside the 95\u00a0% interval of the measured one in {inside} "
+            f"of {len(rows)} cases (four moments at each number of points)."
+        )
+
+    return FigureBlock(
+        id="figure-moments",
+        title="The four moments, measured and by Theorem 1",
+        specs=per_view(evidence.views, draw),
+        alternatives=per_view(evidence.views, say),
+        reading="The scales differ; what matters is the distance between the two lines of a panel.",
+        data=(TableBlock("theorem_1", "Data: moments by number of points"),),
+    )
+
+
+def _moment(evidence: Evidence, view: View, statistic: str) -> style.Panel:
+    rows = evidence.rows("theorem_1", view, statistic=statistic)
+    traces = [
+        style.scatter(
+            x=rows["n_points"],
+            y=rows[column],
+            mode="lines+markers",
+            name=name,
+            legendgroup=name,
+            showlegend=statistic == STATISTICS[0],
+            line=style.line(series),
+            marker=style.marker(series, 5),
+            hovertemplate="%{x:,} points: %{y:.4f}<extra>" + name + "</extra>",
+        )
+        for series, (column, name) in enumerate(
+            (("measured", "measured"), ("predicted", "Theorem 1"))
+        )
+    ]
+    return style.Panel(
+        traces, style.axis("Number of points"), style.axis(""), statistic.capitalize()
+    )
+
+
+def _termination(evidence: Evidence) -> FigureBlock:
+    def draw(view: View) -> Spec | None:
+        rows = evidence.rows("termination", view)
+        rows = rows[rows["lepp_size"] >= 2] if not rows.empty else rows
+        rows = rows[rows["low"].notna()] if not rows.empty else rows
+        if rows.empty:
+            return None
+        p = float(rows["p_type_c"].iloc[0])
+        return style.plot(
+            style.scatter(
+                x=rows["lepp_size"],
+                y=rows["rate"],
+                mode="lines+markers",
+                name="measured",
+                line=style.line(0),
+                marker=style.marker(0),
+                error_y={
+                    "type": "data",
+                    "symmetric": False,
+                    "array": rows["high"] - rows["rate"],
+                    "arrayminus": rows["rate"] - rows["low"],
+                    "thickness": 1.5,
+                    "width": 3,
+                    "color": style.SERIES[0],
+                },
+                hovertemplate="size %{x}: %{y:.4f}<extra></extra>",
+            ),
+            xaxis=style.axis("LEPP size reached", dtick=1),
+            yaxis=style.axis("Share of paths that end there", range=[0, 1.02]),
+            levels=[style.Level(p, f"Theorem 1: p\u00a0=\u00a0{show(p, 'fixed4')}")],
+        )
+
+    def say(view: View) -> str | None:
+        rows = evidence.rows("termination", view)
+        rows = rows[rows["lepp_size"] >= 2] if not rows.empty else rows
+        if rows.empty:
+            return None
+        steps = [
+            f"{show(row.rate, 'percent1')} at size {row.lepp_size}"
+            for row in rows.head(4).itertuples()
+        ]
+        sure = rows[rows["high"] - rows["low"] < 0.05]
+        rates = sure["rate"] if len(sure) > 1 else rows["rate"]
+        trend = (
+            "rises with every step"
+            if rates.is_monotonic_increasing
+            else "falls with every step"
+            if rates.is_monotonic_decreasing
+            else f"moves between {show(rates.min(), 'percent1')} and "
+            f"{show(rates.max(), 'percent1')}"
+        )
+        constant = float(rates.max() - rates.min()) < 0.01
+        verdict = "is constant to a hundredth, as" if constant else f"{trend}, where"
+        return (
+            f"The share of paths that end {verdict} Theorem 1 takes it to be constant: "
+            f"{listed(steps)}."
+        )
+
+    return FigureBlock(
+        id="figure-termination",
+        title="Termination rate at each size of the path",
+        specs=per_view(evidence.views, draw),
+        alternatives=per_view(evidence.views, say),
+        reading="Of the paths that reach a size, the share that end there, with 95\u00a0% "
+        "intervals.",
+        data=(TableBlock("termination", "Data: termination rates"),),
+    )
+
+
+def _law(evidence: Evidence) -> FigureBlock:
+    def draw(view: View) -> Spec | None:
+        rows = evidence.rows("law", view)
+        if rows.empty:
+            return None
+        return style.plot(
+            style.bars(
+                x=rows["lepp_size"],
+                y=rows["share"],
+                name="measured",
+                marker={"color": style.SERIES[0]},
+                hovertemplate="size %{x}: %{y:.3%}<extra>measured</extra>",
+            ),
+            style.scatter(
+                x=rows["lepp_size"],
+                y=rows["geometric_share"].where(rows["geometric_share"] > 0),
+                mode="lines+markers",
+                name="geometric law of the measured p",
+                line=style.line(1),
+                marker=style.marker(1),
+                hovertemplate="size %{x}: %{y:.3%}<extra>geometric law</extra>",
+            ),
+            xaxis=style.axis("LEPP size", dtick=1),
+            yaxis=style.powers("Share of triangles"),
+            bargap=0.3,
+        )
+
+    def say(view: View) -> str | None:
+        rows = evidence.rows("law", view)
+        rows = rows[rows["geometric_share"] > 0] if not rows.empty else rows
+        if rows.empty:
+            return None
+        common = rows.loc[rows["share"].idxmax()]
+        long = rows[rows["lepp_size"] >= 8]
+        said = (
+            f"The commonest size is {common['lepp_size']} ({show(common['share'], 'percent1')} of "
+            f"the triangles; the law has {show(common['geometric_share'], 'percent1')})."
+        )
+        if len(long):
+            # The law's own tail: (1 - p)^6 of the paths are of size 8 and more.
+            p = float(evidence.rows("termination", view)["p_type_c"].iloc[0])
+            measured, expected = float(long["share"].sum()), float((1 - p) ** 6)
+            said += (
+                f" Sizes of 8 and more are {show(expected / measured, 'g2')} times rarer than in "
+                "the law."
+                if measured < expected
+                else f" Sizes of 8 and more are {show(measured / expected, 'g2')} times as common "
+                "as in the law."
+            )
+        return said
+
+    return FigureBlock(
+        id="figure-law",
+        title="LEPP sizes against the geometric law",
+        specs=per_view(evidence.views, draw),
+        alternatives=per_view(evidence.views, say),
+        reading="The vertical scale is logarithmic: a geometric law is a straight line.",
+        data=(TableBlock("law", "Data: LEPP sizes and the law"),),
+    )

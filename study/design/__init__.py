@@ -1,0 +1,1 @@
+"""Designs: which triangulations a study is made of, and how their points are drawn."""

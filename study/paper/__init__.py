@@ -1,0 +1,1 @@
+"""The paper: its numbers, how they are judged beside ours, and what it states."""

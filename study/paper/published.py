@@ -1,0 +1,162 @@
+"""The published numbers, each with the table that prints it and the precision it is printed to."""
+
+import json
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from typing import Any
+
+#: Triangulations in each published group.
+REPETITIONS = 40
+#: The distribution of which the paper shows all tables; Table 6 has all four.
+SHOWN = "uniform"
+
+
+@dataclass(frozen=True)
+class Number:
+    """One published number.
+
+    Attributes
+    ----------
+    table : int
+    quantity : str
+    value : float
+    places : int
+        Decimal places, or, with `scientific`, decimals of the mantissa.
+    distribution : str
+    n_points : int or None
+        The group that it belongs to.
+    scientific : bool
+    """
+
+    table: int
+    quantity: str
+    value: float
+    places: int
+    distribution: str = SHOWN
+    n_points: int | None = None
+    scientific: bool = False
+
+    @property
+    def printed(self) -> str:
+        """As the paper prints it."""
+        return f"{self.value:.{self.places}{'e' if self.scientific else 'f'}}"
+
+    @property
+    def unit(self) -> float:
+        """One unit of the last printed digit."""
+        exponent = int(f"{self.value:e}".split("e")[1]) if self.scientific else 0
+        return float(10.0 ** (exponent - self.places))
+
+
+@cache
+def _document() -> dict[str, Any]:
+    text = resources.files("study.paper").joinpath("published.json").read_text("utf-8")
+    return json.loads(text)
+
+
+def sizes() -> tuple[int, ...]:
+    """Numbers of points of the published groups."""
+    return tuple(row[0] * 1000 for row in _document()["table_4_uniform"]["rows"])
+
+
+def table_1() -> list[Number]:
+    """p-values of the runs and Kolmogorov-Smirnov tests of unnamed point sets."""
+    numbers = []
+    for no, *values in _document()["table_1_uniform_runs_and_ks"]["rows"]:
+        names = ("runs test, x", "runs test, y", "Kolmogorov-Smirnov, x", "Kolmogorov-Smirnov, y")
+        numbers += [
+            Number(1, f"p of {name}, no. {no}", value, 4)
+            for name, value in zip(names, values, strict=True)
+        ]
+    return numbers
+
+
+def f_test(table: int) -> tuple[int, int, Number, Number]:
+    """Degrees of freedom, F and p of Levene's test (Table 2) or the ANOVA (Table 5)."""
+    key = {2: "table_2_uniform_levene", 5: "table_5_uniform_anova"}[table]
+    name = {2: "Levene", 5: "ANOVA"}[table]
+    found = _document()[key]
+    return (
+        found["df_group"],
+        found["df_residual"],
+        Number(table, f"F, {name}", found["f"], 2),
+        Number(table, f"p, {name}", 0.0, 4),
+    )
+
+
+def table_3() -> list[tuple[Number, Number]]:
+    """W and p of the Shapiro-Wilk test of some groups."""
+    rows = _document()["table_3_uniform_shapiro_wilk"]["rows"]
+    return [
+        (
+            Number(3, "W, Shapiro-Wilk", w, 2, n_points=int(group[1:]) * 1000),
+            Number(3, "p, Shapiro-Wilk", p, 2, n_points=int(group[1:]) * 1000),
+        )
+        for group, w, p in rows
+    ]
+
+
+def table_4() -> list[tuple[Number, Number, Number, Number]]:
+    """Mean triangles, mean largest LEPP, mean LEPP and standard deviation of every group."""
+    return [
+        (
+            Number(4, "mean triangles", triangles, 2, n_points=thousands * 1000),
+            Number(4, "mean largest LEPP", largest, 0, n_points=thousands * 1000),
+            Number(4, "mean LEPP", mean, 4, n_points=thousands * 1000),
+            Number(4, "standard deviation", sd, 4, n_points=thousands * 1000),
+        )
+        for thousands, triangles, largest, mean, sd in _document()["table_4_uniform"]["rows"]
+    ]
+
+
+def table_6() -> list[Number]:
+    """p-values of the t tests of mean < 4, for some groups of all distributions."""
+    found = _document()["table_6_t_test_mean_below_4"]
+    return [
+        Number(6, "p, mean below 4", p, 2, distribution, thousands * 1000, scientific=True)
+        for thousands, *row in found["rows"]
+        for distribution, p in zip(found["columns"][1:], row, strict=True)
+    ]
+
+
+#: Coefficients of Table 7: model, our term, the document's key, places, scientific notation.
+_TERMS = (
+    ("linear", "a", "intercept", 3, False),
+    ("linear", "b", "x", 3, True),
+    ("quadratic", "a", "intercept", 3, False),
+    ("quadratic", "b", "x", 6, False),
+    ("quadratic", "c", "x2", 2, True),
+    ("logistic", "a", "a", 3, False),
+    ("logistic", "b", "b", 6, False),
+    ("logarithmic", "c", "c", 3, False),
+    ("logarithmic", "d", "d", 4, False),
+)
+
+
+def coefficients() -> list[tuple[str, str, Number]]:
+    """Model, term and value of the coefficients of Table 7."""
+    found = _document()["table_7_uniform_regressions"]
+    return [
+        (model, term, Number(7, f"{model}, {term}", found[model][key], places, scientific=e))
+        for model, term, key, places, e in _TERMS
+    ]
+
+
+def linear_slope_as_printed() -> Number:
+    """Give the slope of the linear model with the exponent that the paper prints."""
+    value = _document()["table_7_uniform_regressions"]["linear"]["x_printed"]
+    return Number(7, "linear, b, as printed", value, 3, scientific=True)
+
+
+def fits() -> list[tuple[str, Number, Number]]:
+    """Model, adjusted R squared and p of Table 7."""
+    found = _document()["table_7_uniform_regressions"]
+    return [
+        (
+            model,
+            Number(7, f"{model}, adjusted R squared", found[model]["adj_r2"], 2),
+            Number(7, f"{model}, p", found[model]["p"], 2, scientific=True),
+        )
+        for model in ("linear", "quadratic", "logistic", "logarithmic")
+    ]

@@ -1,0 +1,1 @@
+"""Running a design: its tasks, where they are computed, how they are kept going."""

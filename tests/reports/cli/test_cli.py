@@ -1,0 +1,159 @@
+import os
+import subprocess
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+from distributed import Client, LocalCluster
+
+from reports.cli.main import main
+from study.results.store import load
+from study.run import experiment
+
+SETTINGS = "sizes = [200, 400, 800]\nrepetitions = 4\nseed = 3\n"
+
+
+@pytest.fixture
+def config(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(SETTINGS)
+    return path
+
+
+@pytest.fixture
+def threads(monkeypatch):
+    """The local cluster of a run, in threads of this process."""
+
+    @contextmanager
+    def connect(design, workers, scheduler):
+        with (
+            LocalCluster(
+                n_workers=1,
+                threads_per_worker=2,
+                processes=False,
+                dashboard_address=None,
+                scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
+            ) as cluster,
+            Client(cluster) as client,
+        ):
+            yield client
+
+    monkeypatch.setattr("study.run.runner.connect", connect)
+
+
+def lepp_study(*arguments):
+    return CliRunner().invoke(main, [str(argument) for argument in arguments])
+
+
+@pytest.mark.cluster
+def test_a_run_from_the_shell_ends_with_a_report_and_a_second_computes_nothing(tmp_path, config):
+    def shell(*arguments):
+        script = Path(sys.executable).with_name("lepp-study")
+        return subprocess.run(
+            [script, *arguments], cwd=tmp_path, capture_output=True, text=True, check=False
+        )
+
+    first = shell("run", "--config", config, "--workers", "1")
+    assert first.returncode == 0, first.stderr
+    assert first.stderr == ""
+    lines = first.stdout.splitlines()
+    assert lines[0] == "48 triangulations to compute, 22,400 points"
+    assert lines[-2].startswith("48 triangulations, 22,400 points, in ")
+    assert lines[-1] == f"Report: {Path('results/mine/report.html')}"
+    results = tmp_path / "results" / "mine"
+    assert load(results).complete
+    page = (results / "report.html").read_bytes()
+    assert list((results / "tables").glob("*.csv"))
+
+    (results / "report.html").unlink()
+    second = shell("run", results)
+    assert second.returncode == 0, second.stderr
+    assert second.stdout.splitlines()[0] == "Everything was computed already."
+    assert (results / "report.html").read_bytes() == page
+
+
+def test_failed_tasks_are_told_and_tried_again(tmp_path, config, threads, monkeypatch):
+    perform = experiment.perform
+
+    def failing(task, design):
+        if task.distribution == "normal" and task.n_points < 800:
+            raise MemoryError("no room")
+        return perform(task, design)
+
+    monkeypatch.setattr(experiment, "perform", failing)
+    result = lepp_study("run", tmp_path / "out", "--config", config)
+    assert result.exit_code == 3, result.output
+    assert "8 tasks failed; the same command tries them again:" in result.output
+    assert "incremental normal 200 0: MemoryError: no room" in result.output
+    assert "and 3 more" in result.output
+    assert (tmp_path / "out" / "report.html").exists()
+
+    monkeypatch.setattr(experiment, "perform", perform)
+    result = lepp_study("run", tmp_path / "out")
+    assert result.exit_code == 0, result.output
+    assert "8 triangulations to compute, 2,400 points, 40 of 48 are there" in result.output
+    assert load(tmp_path / "out").manifest["failed"] == 0
+
+
+def test_an_interrupted_run_says_how_to_go_on(tmp_path, config, threads, monkeypatch):
+    advance = "reports.cli.progress.PlainProgress.advance"
+
+    def interrupt(self, outcome):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(advance, interrupt)
+    result = lepp_study("run", tmp_path / "out", "--config", config)
+    assert result.exit_code == 130
+    assert "is kept in" in result.output
+    assert "the same command goes on from there" in result.output
+    assert 0 < len(load(tmp_path / "out").results) < 48
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["run", "--preset", "papers"], "no preset 'papers'; the presets are both, delaunay, pap"),
+        (["run", "--preset", "smoke", "--config", "x.toml"], "--preset or --config, not both"),
+        (["run", "--config", "none.toml"], "Cannot read the design none.toml: No such file"),
+        (["run", "--config", "mine.toml", "--seed", "-1"], "seed = -1, which is not allowed"),
+        (["run", "mine.toml"], "mine.toml is a file"),
+        (["run", ".", "--preset", "smoke"], "is not empty and holds no results of lepp-study"),
+        (["report", "."], "holds no results of lepp-study (manifest.json is missing)"),
+        (["run", "new", "--workers", "2", "--scheduler", "tcp://127.0.0.1:1"], "not both"),
+    ],
+)
+def test_bad_input_is_one_sentence(arguments, words, config, monkeypatch):
+    monkeypatch.chdir(config.parent)
+    result = lepp_study(*arguments)
+    assert result.exit_code == 2
+    assert words in result.output
+    assert result.output.startswith("Error: ")
+    assert result.output.count("\n") == 1
+
+
+def test_an_unknown_command_lists_the_known():
+    result = lepp_study("rnu")
+    assert result.exit_code == 2
+    assert "no command 'rnu'; the commands are bench, " in result.output
+
+
+def test_help_and_version_import_nothing_heavy():
+    code = (
+        "import sys; from click.testing import CliRunner; from reports.cli.main import main\n"
+        "for words in (['--help'], ['run', '--help'], ['--version']):\n"
+        "    assert CliRunner().invoke(main, words).exit_code == 0\n"
+        "print(*{'numpy', 'numba', 'pandas', 'distributed', 'pydantic', 'rich'} & {*sys.modules})"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, env=os.environ
+    )
+    assert done.stdout == "\n"
+
+
+def test_bench_prints_a_row_for_each_thing_measured():
+    result = lepp_study("bench", "--points", "2000", "--repeats", "1")
+    assert result.exit_code == 0, result.output
+    assert "scipy.spatial.Delaunay" in result.output
+    assert "incremental: both" in result.output

@@ -1,0 +1,249 @@
+"""The page in a real browser: drawn, switched, linked, explored, downloaded and printed."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from conftest import draw_all
+from playwright.sync_api import Page
+from tiny_runs import DESIGN
+
+from reports.study_page.gather import gather
+from reports.text.numbers import show
+
+pytestmark = pytest.mark.browser
+
+Open = Callable[..., Page]
+SECOND = DESIGN.distributions[1]
+
+
+def shown_rows(page: Page, table: str) -> list[list[str]]:
+    return page.evaluate(
+        """name => [...document.querySelectorAll(`[data-table="${name}"]:not(details *) tbody tr`)]
+            .map(row => [...row.children].map(cell => cell.textContent))""",
+        table,
+    )
+
+
+@pytest.mark.parametrize("width", [360, 1280, 1600])
+def test_everything_is_drawn_and_fits(open_report: Open, width: int) -> None:
+    page = open_report(viewport={"width": width, "height": 800})
+    draw_all(page)
+    assert page.locator("main > section").count() >= 8
+    for host in page.locator("[data-figure]").all():
+        assert host.is_visible()
+        assert host.locator(".main-svg").count() > 0
+        assert host.bounding_box()["height"] > 200  # type: ignore[index]
+    assert page.locator(".absent:visible").count() == 0
+    assert page.locator(".explorer polygon").count() > 50
+    assert page.evaluate("document.documentElement.scrollWidth") == width
+    for table in page.locator("[data-table]:visible").all():
+        assert table.locator("tbody tr").count() > 0, table.get_attribute("data-table")
+
+
+def test_text_and_tables_do_not_wait_for_plots(open_report: Open) -> None:
+    page = open_report()
+    order = page.evaluate("performance.getEntriesByType('mark').map(mark => mark.name)")
+    assert order == ["tables", "figures"]
+
+
+def test_switch_acts_on_the_whole_page_and_on_the_address(open_report: Open) -> None:
+    page = open_report()
+    draw_all(page)
+    before = (page.locator(".finding:visible").all_inner_texts(), shown_rows(page, "table_4"))
+    drawn = page.evaluate("document.querySelector('[data-figure=figure-4]').data[0].y[0]")
+    page.get_by_role("radio", name="Bivariate normal").check()
+    assert f"distribution={SECOND}" in page.url
+    after = (page.locator(".finding:visible").all_inner_texts(), shown_rows(page, "table_4"))
+    assert before[0] != after[0]
+    assert before[1] != after[1]
+    assert page.evaluate("document.querySelector('[data-figure=figure-4]').data[0].y[0]") != drawn
+    assert "Bivariate normal" in page.locator("#announcement").inner_text()
+    page.go_back()
+    page.wait_for_function("document.body.dataset.view.endsWith('/uniform')")
+    assert shown_rows(page, "table_4") == before[1]
+    page.go_forward()
+    page.wait_for_function(f"document.body.dataset.view.endsWith('/{SECOND}')")
+    assert shown_rows(page, "table_4") == after[1]
+
+
+def test_a_view_can_be_linked(open_report: Open) -> None:
+    method = DESIGN.methods[-1]
+    page = open_report(f"#distribution={SECOND}&method={method}&section=theory")
+    assert page.evaluate("document.body.dataset.view") == f"{method}/{SECOND}"
+    assert page.get_by_role("radio", name="Bivariate normal").is_checked()
+    assert page.evaluate("document.activeElement.id") == "theory-title"
+
+
+def test_unknown_values_in_the_address_are_ignored(open_report: Open) -> None:
+    page = open_report("#distribution=cauchy&method=sorcery&section=nowhere")
+    assert page.evaluate("document.body.dataset.view") == f"{DESIGN.methods[0]}/uniform"
+
+
+def test_sections_are_reached_without_losing_the_view(open_report: Open) -> None:
+    page = open_report(f"#distribution={SECOND}")
+    page.get_by_role("navigation").get_by_role("link", name="The data").click()
+    assert f"distribution={SECOND}" in page.url
+    assert "section=data" in page.url
+    page.wait_for_function(
+        "Math.abs(document.querySelector('#data').getBoundingClientRect().top) < 200"
+    )
+    page.evaluate("location.hash = '#regions'")  # as a plain link from elsewhere would
+    page.wait_for_timeout(50)
+    assert page.evaluate("document.body.dataset.view").endswith(SECOND)
+
+
+def test_a_choice_of_one_is_no_switch(open_report: Open) -> None:
+    page = open_report()
+    methods = page.locator("fieldset", has_text="Triangulation")
+    assert methods.is_visible() == (len(DESIGN.methods) > 1)
+
+
+def test_explorer_by_mouse(open_report: Open) -> None:
+    page = open_report()
+    said = page.locator(".explorer .said")
+    triangles = page.evaluate(
+        """() => [...document.querySelectorAll('polygon[role=option]')].map((shape, k) => {
+            const box = shape.getBoundingClientRect();
+            return {k, area: box.width * box.height, label: shape.getAttribute('aria-label')};
+        }).sort((a, b) => b.area - a.area)"""
+    )
+    for triangle in triangles[:3]:
+        shape = page.locator(f".explorer polygon[data-triangle='{triangle['k']}']")
+        shape.dispatch_event("pointerover")
+        size = int(triangle["label"].rsplit(" ", 1)[1])
+        assert f"Triangle {triangle['k']}: LEPP size {size}." in said.inner_text()
+        assert page.locator(".explorer polygon.start, .explorer polygon.path").count() == size
+        assert page.locator(".explorer line.terminal").count() == 1
+
+
+def test_explorer_by_keyboard(open_report: Open) -> None:
+    page = open_report()
+    page.locator(".explorer polygon[tabindex='0']").focus()
+    said = page.locator(".explorer .said")
+    seen = {said.inner_text()}
+    for key in ("ArrowLeft", "ArrowDown", "ArrowRight", "ArrowUp", "Home", "End"):
+        page.keyboard.press(key)
+        seen.add(said.inner_text())
+        focused = page.evaluate("document.activeElement.dataset.triangle")
+        assert said.inner_text().startswith(f"Triangle {focused}:")
+        assert page.locator(".explorer polygon[tabindex='0']").count() == 1
+    assert len(seen) >= 5
+    long = page.locator(".explorer polygon[aria-label$='LEPP size 4']").first
+    long.focus()
+    start = said.inner_text()
+    page.keyboard.press("Enter")
+    following = start.split("goes ")[1].split(" → ")[1]
+    assert said.inner_text().startswith(f"Triangle {following}:")
+
+
+def test_csv_downloads_are_the_files_on_disk(open_report: Open, report: Path) -> None:
+    page = open_report()
+    draw_all(page)  # or the buttons are on the move
+    page.evaluate("document.querySelectorAll('details').forEach(fold => fold.open = true)")
+    page.wait_for_function(
+        "[...document.querySelectorAll('[data-table]')].every(host => host.querySelector('table'))"
+    )
+    names = set(page.locator("[data-table]").evaluate_all("all => all.map(h => h.dataset.table)"))
+    assert len(names) > 25
+    for k, name in enumerate(sorted(names), start=1):
+        if k % 8 == 0:
+            page.wait_for_timeout(1500)  # Chromium drops downloads beyond ten a second
+        with page.expect_download() as started:
+            page.locator(f"[data-table='{name}'] button.csv").first.click()
+        assert started.value.suggested_filename == f"{name}.csv"
+        on_disk = report.parent / "tables" / f"{name}.csv"
+        assert Path(started.value.path()).read_bytes() == on_disk.read_bytes()
+
+
+def test_cells_show_the_numbers_of_the_tables(open_report: Open, run_directory: Path) -> None:
+    """The script's digits are those of reports.text.numbers, for every cell of every table."""
+    page = open_report()
+    for name, table in gather(run_directory).tables.items():
+        cells = page.evaluate(
+            """async name => {
+                const report = new Report(await inflate('report-data').json());
+                const table = report.tables.get(name);
+                return table.rows.map(row => row.map((v, k) => show(v, table.columns[k].format)));
+            }""",
+            name,
+        )
+        rows = table.frame.itertuples(index=False)
+        formats = [column.format for column in table.columns]
+        assert cells == [[show(v, f) for v, f in zip(row, formats, strict=True)] for row in rows]
+
+
+def test_dark_theme_follows_the_system_and_the_button(open_report: Open) -> None:
+    def paint(page: Page) -> tuple[str, str]:
+        return page.evaluate(
+            """() => [getComputedStyle(document.body).backgroundColor,
+                document.querySelector('[data-figure=figure-4]').layout.font.color]"""
+        )
+
+    light, dark = open_report(color_scheme="light"), open_report(color_scheme="dark")
+    draw_all(light)
+    draw_all(dark)
+    lit, unlit = paint(light), paint(dark)
+    assert lit[0] != unlit[0]
+    assert lit[1] != unlit[1]
+    light.get_by_role("button", name="Dark").click()
+    assert paint(light) == unlit
+    light.reload()
+    light.wait_for_selector("html[data-ready='figures']", state="attached")
+    draw_all(light)
+    assert paint(light) == unlit
+
+
+def test_print_has_every_fold_and_figure(open_report: Open, tmp_path: Path) -> None:
+    page = open_report(color_scheme="dark")
+    folds = page.locator("details").count()
+    assert page.locator("details[open]").count() == 0
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    assert page.locator("details[open]").count() == folds
+    assert page.evaluate(
+        "[...document.querySelectorAll('[data-table]')].every(h => h.querySelector('tbody tr td'))"
+    )
+    assert page.evaluate(
+        "[...document.querySelectorAll('[data-figure]')].every(h => h.querySelector('.main-svg'))"
+    )
+    colors = page.evaluate("document.querySelector('[data-figure=figure-4]').layout.font.color")
+    page.evaluate("dispatchEvent(new Event('afterprint'))")
+    assert page.locator("details[open]").count() == 0
+    assert (
+        page.evaluate("document.querySelector('[data-figure=figure-4]').layout.font.color")
+        != colors
+    )
+    pdf = tmp_path / "report.pdf"
+    page.pdf(path=pdf, prefer_css_page_size=True)
+    assert pdf.read_bytes().startswith(b"%PDF")
+    assert pdf.stat().st_size > 100_000
+
+
+def test_keyboard_reaches_the_page(open_report: Open) -> None:
+    page = open_report()
+    page.keyboard.press("Tab")
+    assert page.evaluate("document.activeElement.className") == "skip"
+    page.keyboard.press("Enter")
+    assert page.evaluate("document.activeElement.id") == "main"
+
+
+def test_page_works_without_its_script(browser: object, report: Path) -> None:
+    context = browser.new_context(java_script_enabled=False)  # type: ignore[attr-defined]
+    page = context.new_page()
+    page.goto(report.as_uri())
+    assert "tables" in page.locator("noscript").inner_text()
+    assert page.locator(".tiles:visible").count() == 1
+    context.close()
+
+
+@pytest.mark.parametrize(("scheme", "width"), [("light", 1280), ("dark", 390)])
+def test_axe_finds_no_violation(open_report: Open, axe: str, scheme: str, width: int) -> None:
+    page = open_report(color_scheme=scheme, viewport={"width": width, "height": 900})
+    page.evaluate("document.querySelectorAll('details').forEach(fold => fold.open = true)")
+    draw_all(page)
+    page.evaluate(axe)
+    found = page.evaluate("axe.run().then(found => found.violations)")
+    assert [
+        (violation["id"], [node["target"] for node in violation["nodes"]][:5])
+        for violation in found
+    ] == []

@@ -1,0 +1,160 @@
+import re
+from html.parser import HTMLParser
+from itertools import pairwise
+from pathlib import Path
+
+import plotly.graph_objects as go
+import pytest
+from tiny_runs import DESIGN, store_run
+
+from reports.page.blocks import FigureBlock, Section
+from reports.page.data import decode
+from reports.page.evidence import Evidence
+from reports.study_page import sections
+from reports.study_page.gather import gather
+from reports.study_page.page import write_report
+
+MOST_BYTES = 3_000_000
+VOID = {"meta", "link", "input", "br", "path", "polygon", "img", "hr"}
+
+
+class Reader(HTMLParser):
+    """Collects ids, links, headings, and the text of scripts."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.ids: list[str] = []
+        self.addresses: list[str] = []
+        self.headings: list[str] = []
+        self.scripts: dict[str, str] = {}
+        self.open: list[str] = []
+        self._script = ""
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        given = dict(attrs)
+        self.ids += [given["id"]] if given.get("id") else []
+        self.addresses += [v for k, v in attrs if k in ("src", "href") and v]
+        self.headings += [tag] if re.fullmatch("h[1-6]", tag) else []
+        self._script = given.get("id") or "" if tag == "script" else ""
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        self._script = ""
+        if tag not in VOID:
+            assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        if self._script:
+            self.scripts[self._script] = self.scripts.get(self._script, "") + data
+
+
+@pytest.fixture(scope="module")
+def evidence(run_directory: Path) -> Evidence:
+    return gather(run_directory)
+
+
+@pytest.fixture(scope="module")
+def parts(evidence: Evidence) -> list[Section]:
+    return sections.all_sections(evidence)
+
+
+@pytest.fixture(scope="module")
+def read(report: Path) -> Reader:
+    return Reader(report.read_text(encoding="utf-8"))
+
+
+def figures(parts: list[Section]) -> list[FigureBlock]:
+    blocks = [block for section in parts for part in section.parts for block in part.blocks]
+    return [block for block in blocks if isinstance(block, FigureBlock)]
+
+
+def test_sections_come_in_the_order_of_the_questions(parts: list[Section]) -> None:
+    compared = ["methods"] if len(DESIGN.methods) > 1 else []
+    assert [section.id for section in parts] == [
+        "found", "agreement", "theory", "statistics", "regressions", *compared, "regions",
+        "data", "made",
+    ]  # fmt: skip
+
+
+def test_all_seven_figures_are_there(read: Reader) -> None:
+    assert {f"figure-{k}" for k in range(1, 8)} <= set(read.ids)
+
+
+def test_markup_is_closed_and_ids_are_unique(read: Reader) -> None:
+    assert read.open == []
+    assert len(read.ids) == len(set(read.ids))
+
+
+def test_headings_step_down_one_level_at_a_time(read: Reader) -> None:
+    levels = [int(heading[1]) for heading in read.headings]
+    assert levels[0] == 1
+    assert levels.count(1) == 1
+    assert all(b - a <= 1 for a, b in pairwise(levels))
+
+
+def test_captions_tell_tables_apart(report: Path) -> None:
+    captions = re.findall(r'data-caption="([^"]*)"', report.read_text(encoding="utf-8"))
+    assert len(captions) == len(set(captions))
+
+
+def test_nothing_is_fetched(read: Reader) -> None:
+    assert [a for a in read.addresses if not a.startswith(("#", "data:,"))] == []
+
+
+def test_every_view_of_every_figure_is_drawn_and_said(
+    parts: list[Section], evidence: Evidence
+) -> None:
+    keys = {view.key for view in evidence.views}
+    for block in figures(parts):
+        for by_view in (block.specs, block.alternatives):
+            assert set(by_view) in (keys, {"*"}), block.id
+        assert all(re.search(r"\d", text) for text in block.alternatives.values()), block.id
+
+
+def test_plots_keep_to_plotlys_schema(parts: list[Section]) -> None:
+    for block in figures(parts):
+        for spec in block.specs.values():
+            go.Figure(spec)  # raises ValueError for what Plotly does not know
+
+
+def test_data_block_holds_the_files_on_disk(read: Reader, report: Path) -> None:
+    tables = decode(read.scripts["report-data"])["tables"]
+    files = {path.stem: path.read_text("utf-8") for path in report.parent.glob("tables/*.csv")}
+    assert {name: table["csv"] for name, table in tables.items()} == files
+
+
+def test_figures_repeat_no_number_of_a_table(read: Reader) -> None:
+    def longest(node: object) -> int:
+        if isinstance(node, dict):
+            return 0 if "$" in node else max(map(longest, node.values()), default=0)
+        if isinstance(node, list):
+            return max([len(node), *map(longest, node)])
+        return 0
+
+    # What stays inline grows with the number of sizes and LEPP sizes, not with the tasks.
+    assert longest(decode(read.scripts["report-data"])["figures"]) < 60
+
+
+def test_a_report_fits_into_its_bytes(report: Path) -> None:
+    assert report.stat().st_size < MOST_BYTES
+
+
+def test_same_results_give_the_same_bytes(report: Path, tmp_path: Path) -> None:
+    from study.run.experiment import perform
+
+    again = write_report(store_run(tmp_path / "again", DESIGN, perform))
+    assert again.read_bytes() == report.read_bytes()
+    for path in sorted(report.parent.glob("tables/*.csv")):
+        assert (again.parent / "tables" / path.name).read_bytes() == path.read_bytes()
+
+
+def test_a_new_report_removes_what_an_older_one_left(report: Path) -> None:
+    old = report.parent / "tables" / "of_an_older_version.csv"
+    old.write_text("a\n1\n")
+    before = report.read_bytes()
+    write_report(report.parent)
+    assert not old.exists()
+    assert report.read_bytes() == before
+    assert not list(report.parent.glob(".*.html*"))

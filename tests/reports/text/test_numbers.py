@@ -1,0 +1,55 @@
+import numpy as np
+import pandas as pd
+import pytest
+
+from reports.text.numbers import count, large, listed, p_value_from_log10, show, thousands
+
+
+@pytest.mark.parametrize(
+    ("value", "how", "text"),
+    [
+        (1234567, "int", "1,234,567"),
+        (3.06657, "fixed4", "3.0666"),
+        (-0.00001, "fixed4", "0.0000"),
+        (-1.25, "fixed2", "−1.25"),
+        (-4.4069e11, "fixed2", "−4.41\u00a0×\u00a010¹¹"),
+        (0.4171, "percent1", "41.7\u00a0%"),
+        (7.535e-5, "g4", "7.535\u00a0×\u00a010⁻⁵"),
+        (0.00123456, "g3", "0.00123"),
+        (-518127.0, "g4", "−518,127"),
+        (2.5e9, "g2", "2.5\u00a0×\u00a010⁹"),
+        (0.0376, "p", "0.0376"),
+        (6.08e-77, "p", "6.1\u00a0×\u00a010⁻⁷⁷"),
+        (0.0, "p", "<\u00a010⁻³⁰⁷"),
+        (-400.5, "log10p", "3.2\u00a0×\u00a010⁻⁴⁰¹"),
+        (-1.0, "log10p", "0.1000"),
+        (float("inf"), "fixed2", "∞"),
+        (float("nan"), "fixed2", "–"),
+        (None, "text", "–"),
+        (pd.NA, "int", "–"),
+        ("agrees", "text", "agrees"),
+        (np.int64(7), "int", "7"),
+    ],
+)
+def test_show(value: object, how: str, text: str) -> None:
+    assert show(value, how) == text
+
+
+def test_a_small_p_is_never_shown_as_zero() -> None:
+    for exponent in range(1, 400):
+        assert set(p_value_from_log10(-float(exponent))) - set("0. ")
+
+
+def test_mantissa_is_below_ten() -> None:
+    assert p_value_from_log10(-50 + 1e-12) == "1.0\u00a0×\u00a010⁻⁵⁰"
+    assert p_value_from_log10(-50 - 1e-12) == "1.0\u00a0×\u00a010⁻⁵⁰"
+
+
+def test_words() -> None:
+    assert count(1, "task") == "1 task"
+    assert count(3200, "triangulation") == "3,200 triangulations"
+    assert listed(["a"]) == "a"
+    assert listed(["a", "b", "c"]) == "a, b and c"
+    assert large(336_000_000) == "336 million"
+    assert thousands(10_000) == "10k"
+    assert thousands(500) == "500"

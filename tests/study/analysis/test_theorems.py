@@ -1,0 +1,170 @@
+"""Theorems 1 and 2 against meshes whose law is known."""
+
+import numpy as np
+import pytest
+from frames import design, frames
+from scipy import stats
+from test_assumptions import values_of
+
+from lepp import LeppCounts
+from study.analysis import analyse
+from study.analysis.paths import ratio_interval
+from study.statistics.intervals import at_least
+
+
+def test_shares_of_types_by_hand(study):
+    _, (results, *_), tables = study
+    frame = tables["neighbor_types"].frame.set_index(["method", "distribution", "n_points", "type"])
+    chosen = results.query(
+        "method == 'delaunay' and distribution == 'uniform' and n_points == 2000"
+    )
+    for name in "ABC":
+        shares = chosen[f"n_type_{name.lower()}"] / chosen["n_interior_longest"]
+        row = frame.loc["delaunay", "uniform", 2000, name]
+        interval = stats.ttest_1samp(shares, 0).confidence_interval(0.95)
+        assert row["share"] == pytest.approx(shares.mean())
+        assert (row["low"], row["high"]) == pytest.approx((interval.low, interval.high))
+    by_group = tables["neighbor_types"].frame.groupby(["method", "distribution", "n_points"])
+    assert by_group["share"].sum().to_numpy() == pytest.approx(1)
+
+
+def test_predicted_moments_are_the_geometric_laws(study):
+    frame = study[2]["theorem_1"].frame
+    for row in frame.itertuples():
+        # scipy's geometric law starts at 1, LEPP sizes at 2
+        law = stats.geom(row.p_type_c, loc=1)
+        mean, variance, skewness, kurtosis = (float(v) for v in law.stats("mvsk"))
+        expected = {
+            "mean": mean,
+            "standard deviation": variance**0.5,
+            "skewness": skewness,
+            "excess kurtosis": kurtosis,
+        }[row.statistic]
+        assert row.predicted == pytest.approx(expected)
+        assert row.relative_difference == pytest.approx(row.measured / expected - 1)
+
+
+def test_measured_moments_of_a_geometric_mesh_are_predicted(study):
+    frame = study[2]["theorem_1"].frame.query("n_points == 8000")
+    means = frame[frame["statistic"] == "mean"]
+    assert means["relative_difference"].abs().max() < 0.02
+
+
+@pytest.mark.parametrize(("method", "premise"), [("incremental", "yes"), ("delaunay", "no")])
+def test_premise_is_judged_by_the_interval_of_p(study, method, premise):
+    frame = study[2]["theorem_2"].frame.query("method == @method")
+    assert set(frame["premise"]) == {premise}
+    inside = frame.apply(lambda row: row["p_low"] <= row["p_type_c"] <= row["p_high"], axis=1)
+    assert inside.all()
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "verdict"),
+    [(0.34, 0.4, "yes"), (0.2, 0.3, "no"), (0.3, 0.4, "undecided"), (np.nan, np.nan, "undecided")],
+)
+def test_an_interval_decides_or_does_not(low, high, verdict):
+    assert at_least(1 / 3, low, high) == verdict
+
+
+def test_bounds_need_every_triangulation():
+    asked = design(distributions=("uniform",))
+    results, *others = frames(asked)
+    results.loc[0, "mean_lepp"] = 4.01
+    results.loc[7, "sd_lepp"] = 2.46
+    tables = analyse(results, *others, asked)
+    stated = tables["statements"].frame.set_index("statement")["holds"]
+    assert stated["The mean LEPP size is between 2 and 4"] == "no"
+    assert stated["The standard deviation is at most sqrt 6"] == "no"
+    frame = tables["theorem_2"].frame
+    assert frame["bounds"].tolist() == ["no", "no", "yes", "yes"]
+    assert frame["mean_inside"].tolist() == [5, 6, 6, 6]
+    assert frame["sd_inside"].tolist() == [6, 5, 6, 6]
+
+
+def pooled(histograms, method, distribution):
+    chosen = histograms.query("method == @method and distribution == @distribution")
+    return chosen.groupby("lepp_size")["count"].sum()
+
+
+def test_termination_rates_are_those_of_the_pooled_histogram(study):
+    _, (_, histograms, _), tables = study
+    counts = pooled(histograms, "delaunay", "uniform")
+    dense = counts.reindex(range(counts.index.max() + 1), fill_value=0).to_numpy()
+    frame = tables["termination"].frame.query("method == 'delaunay' and distribution == 'uniform'")
+    rates = LeppCounts(dense).termination_rates
+    np.testing.assert_allclose(frame["rate"], rates[1:])
+    assert frame["lepp_size"].tolist() == list(range(1, len(dense)))
+    assert frame["reached"].iloc[0] == dense.sum()
+
+
+def test_ratio_of_equal_sums_has_the_error_of_a_mean():
+    rng = np.random.default_rng(1)
+    reached = np.full(30, 1000)
+    ended = rng.binomial(1000, 0.4, 30)
+    rate, error, low, high = ratio_interval(ended, reached)
+    shares = ended / 1000
+    assert rate == pytest.approx(shares.mean())
+    assert error == pytest.approx(stats.sem(shares))
+    interval = stats.ttest_1samp(shares, 0).confidence_interval(0.95)
+    assert (low, high) == pytest.approx((interval.low, interval.high))
+
+
+def test_ratio_of_one_triangulation_has_no_error():
+    assert np.isnan(ratio_interval(np.array([3]), np.array([9]))[1:]).all()
+
+
+def test_law_is_the_share_beside_the_geometric(study):
+    _, (results, histograms, _), tables = study
+    frame = tables["law"].frame.query("method == 'incremental' and distribution == 'uniform'")
+    counts = pooled(histograms, "incremental", "uniform")
+    rows = results.query("method == 'incremental' and distribution == 'uniform'")
+    p = rows["n_type_c"].sum() / rows["n_interior_longest"].sum()
+    seen = frame.set_index("lepp_size")
+    assert seen["count"].sum() == counts.sum() == rows["n_triangles"].sum()
+    for size, count in counts.items():
+        assert seen.loc[size, "share"] == pytest.approx(count / counts.sum())
+        expected = (1 - p) ** (size - 2) * p if size > 1 else 0
+        assert seen.loc[size, "geometric_share"] == pytest.approx(expected)
+
+
+def test_worst_case_is_equation_1(study):
+    frame = study[2]["worst_case"].frame
+    assert frame["n_triangles"].max() == 10**6
+    assert (frame["mean_lepp"] == (frame["n_triangles"] + 1) / 2).all()
+    assert (frame["max_lepp"] == frame["n_triangles"]).all()
+    assert set(frame["equal"]) == {"yes"}
+
+
+def test_regions_by_hand(study):
+    _, (results, *_), tables = study
+    frame = tables["regions"].frame.set_index(["method", "distribution", "n_points"])
+    chosen = results.query(
+        "method == 'delaunay' and distribution == 'uniform' and n_points == 1000"
+    )
+    row = frame.loc["delaunay", "uniform", 1000]
+    pairs = [c / m for c, m in zip(chosen["n_type_c"], chosen["n_triangles"], strict=True)]
+    assert row["pair_share"] == pytest.approx(sum(pairs) / 6)
+    edges = [r / m for r, m in zip(chosen["n_regions"], chosen["n_triangles"], strict=True)]
+    assert row["edges_per_triangle"] == pytest.approx(sum(edges) / 6)
+    assert row["mean_region"] == pytest.approx(sum(1 / e for e in edges) / 6)
+    assert row["max_region"] == max(chosen["max_region"])
+
+
+def test_region_sizes_hold_every_triangle(study):
+    _, (results, _, _), tables = study
+    frame = tables["region_sizes"].frame
+    for (method, distribution), found in frame.groupby(["method", "distribution"]):
+        rows = results[(results["method"] == method) & (results["distribution"] == distribution)]
+        assert found["count"].sum() == rows["n_regions"].sum()
+        assert (found["count"] * found["region_size"]).sum() == rows["n_triangles"].sum()
+        assert found["share"].sum() == pytest.approx(1)
+        share = found["count"] * found["region_size"] / rows["n_triangles"].sum()
+        assert found["share_of_triangles"].to_numpy() == pytest.approx(share.to_numpy())
+
+
+def test_groups_are_not_mixed(study):
+    _, (results, *_), tables = study
+    frame = tables["theorem_1"].frame.query("statistic == 'mean'")
+    for row in frame.itertuples():
+        values = values_of(results, row.method, row.distribution)[row.n_points]
+        assert row.measured == pytest.approx(values.mean())

@@ -1,0 +1,100 @@
+import pytest
+
+from lepp import InputError
+from study.design.design import MAX_POINTS, Design, preset_names
+
+SMALL = {"sizes": [100, 200], "repetitions": 2}
+
+
+def test_paper_preset_is_the_published_design():
+    paper = Design.from_preset("paper")
+    assert paper.n_tasks == 3200
+    assert paper.n_points == 336_000_000
+    assert paper.methods == ("incremental",)
+    assert paper.sizes == tuple(range(10_000, 200_001, 10_000))
+
+
+def test_presets_share_the_seed_and_differ_in_the_method():
+    paper, delaunay, both = map(Design.from_preset, ("paper", "delaunay", "both"))
+    assert paper.difference(delaunay) == "methods is incremental there and delaunay here"
+    assert both.methods == ("incremental", "delaunay")
+    assert {paper.seed, delaunay.seed, both.seed} == {paper.seed}
+    assert preset_names() == ["both", "delaunay", "paper", "smoke"]
+
+
+def test_every_way_of_writing_a_design_gives_the_same_one():
+    one = Design.from_settings(
+        {
+            "sizes": {"first": 10, "last": 35, "step": 10},
+            "repetitions": 1,
+            "distributions": ["normal", "uniform"],
+            "methods": ["delaunay", "incremental", "delaunay"],
+        }
+    )
+    other = Design.from_settings(
+        {
+            "sizes": [30, 10, 20, 10],
+            "repetitions": 1,
+            "distributions": ["uniform", "normal"],
+            "methods": ["incremental", "delaunay"],
+        }
+    )
+    assert one == other
+    assert one.difference(other) is None
+    assert one.sizes == (10, 20, 30)
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"sizes": [100]}, "does not set repetitions: give a whole number from 1"),
+        ({"repetitions": 2}, "does not set sizes: give a list of whole numbers of points from 3"),
+        (SMALL | {"repetitions": 0}, "repetitions = 0, which is not allowed"),
+        (SMALL | {"repetitions": True}, "repetitions = True"),
+        (SMALL | {"repetitions": 2.0}, "repetitions = 2.0"),
+        (SMALL | {"sizes": [100, 2]}, "2 among its sizes"),
+        (SMALL | {"sizes": [0]}, "0 among its sizes"),
+        (SMALL | {"sizes": [MAX_POINTS + 1]}, "268435456 among its sizes"),
+        (SMALL | {"sizes": []}, "sizes = [], which"),
+        (SMALL | {"sizes": 100}, "sizes = 100, which"),
+        (SMALL | {"sizes": {"first": 10, "last": 20}}, "sizes = {'first': 10, 'last': 20}"),
+        (SMALL | {"sizes": {"first": 10, "last": 20, "step": 0}}, "sizes = {"),
+        (SMALL | {"sizes": {"first": 3, "last": 300_000_000, "step": 1}}, "sizes = {"),
+        (SMALL | {"methods": ["cgal"]}, "'cgal' among its methods, which is not allowed: give a"),
+        (SMALL | {"methods": [["delaunay"]]}, "['delaunay'] among its methods"),
+        (SMALL | {"distributions": ["cauchy"]}, "one or more of uniform, normal, bivariate_normal"),
+        (SMALL | {"distributions": "uniform"}, "distributions = 'uniform'"),
+        (SMALL | {"seed": -1}, "seed = -1, which is not allowed: give a whole number from 0"),
+        (SMALL | {"correlation": 1}, "correlation = 1, which is not allowed: give a number betw"),
+        (SMALL | {"correlation": float("nan")}, "correlation = nan"),
+        (SMALL | {"repetition": 3}, "unknown setting 'repetition'; the settings are methods, dis"),
+        (SMALL | {"repetitions": 1_000_000}, "8,000,000 triangulations, more than the 1,000,000"),
+    ],
+)
+def test_a_wrong_setting_is_named_with_its_value_and_what_is_allowed(settings, words):
+    with pytest.raises(InputError) as caught:
+        Design.from_settings(settings, "study.toml")
+    message = str(caught.value)
+    assert words in message
+    assert message.startswith("study.toml ")
+    assert "\n" not in message
+
+
+def test_a_file_is_read_and_a_wrong_one_named(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text("sizes = [10]\nrepetitions = 1\nseed = 7\n")
+    assert Design.from_toml(path).seed == 7
+    path.write_text("sizes = [10\n")
+    with pytest.raises(InputError, match=r"mine\.toml is not a TOML file"):
+        Design.from_toml(path)
+    with pytest.raises(InputError, match=r"Cannot read the design .*No such file"):
+        Design.from_toml(tmp_path / "none.toml")
+    with pytest.raises(InputError, match="no preset 'papers'; the presets are both, delaunay"):
+        Design.from_preset("papers")
+
+
+def test_another_seed_is_checked_as_the_first():
+    design = Design.from_settings(SMALL)
+    assert design.with_seed(5).difference(design) == "seed is 5 there and 2022 here"
+    with pytest.raises(InputError, match="seed = -5"):
+        design.with_seed(-5)

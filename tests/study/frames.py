@@ -1,0 +1,98 @@
+"""Results as a run would leave them, drawn from a seeded generator."""
+
+import numpy as np
+import pandas as pd
+
+from study.design.design import Design
+
+REALS = ["mean_lepp", "sd_lepp", "skewness_lepp", "kurtosis_lepp"]
+REALS += ["runs_p_x", "runs_p_y", "ks_p_x", "ks_p_y"]
+KEY = ["method", "distribution", "n_points", "replicate"]
+
+
+def design(**changes):
+    settings = {
+        "methods": ("incremental",),
+        "distributions": ("uniform", "exponential"),
+        "sizes": (1000, 2000, 4000, 8000),
+        "repetitions": 6,
+        "seed": 1,
+    }
+    # Not validated: the statistics take any names of methods and distributions.
+    return Design.model_construct(**settings | changes)
+
+
+def long_counts(key, name, counts):
+    return [
+        dict(zip(KEY, key, strict=True)) | {name: size, "count": int(count)}
+        for size, count in enumerate(counts)
+        if count
+    ]
+
+
+def frames(design, seed=0):
+    """Results, histograms and regions: sizes drawn from near-geometric laws."""
+    results, histograms, regions = [], [], []
+    for method in design.methods:
+        share_c = {"incremental": 0.486, "delaunay": 0.303}[method]
+        for distribution in design.distributions:
+            for n in design.sizes:
+                for replicate in range(design.repetitions):
+                    place = (seed, len(method), len(distribution), n, replicate)
+                    rng = np.random.default_rng(place)
+                    key = (method, distribution, n, replicate)
+                    hull = int(rng.integers(10, 30))
+                    m = 2 * n - 2 - hull
+                    boundary = hull // 2
+                    share = share_c - 0.3 / np.log2(n) / 100 + rng.normal(0, 0.1 / np.sqrt(n))
+                    type_c = 2 * int((m - boundary) * share / 2)
+                    type_a = int((m - boundary - type_c) * 0.4)
+                    sizes = 1 + rng.geometric(share, m - boundary)
+                    counts = np.bincount(np.concatenate([np.ones(boundary, int), sizes]))
+                    k = np.arange(len(counts))
+                    mean = (k * counts).sum() / m
+                    central = [((k - mean) ** e * counts).sum() / m for e in (2, 3, 4)]
+                    ends = type_c // 2 + boundary
+                    region = np.bincount(rng.multinomial(m - ends, np.full(ends, 1 / ends)) + 1)
+                    histograms += long_counts(key, "lepp_size", counts)
+                    regions += long_counts(key, "region_size", region)
+                    results.append(
+                        dict(zip(KEY, key, strict=True))
+                        | {
+                            "n_triangles": m,
+                            "n_hull": hull,
+                            "n_repeated": 0,
+                            "mean_lepp": mean,
+                            "sd_lepp": central[0] ** 0.5,
+                            "skewness_lepp": central[1] / central[0] ** 1.5,
+                            "kurtosis_lepp": central[2] / central[0] ** 2 - 3,
+                            "max_lepp": len(counts) - 1,
+                            "n_interior_longest": m - boundary,
+                            "n_type_a": type_a,
+                            "n_type_b": m - boundary - type_c - type_a,
+                            "n_type_c": type_c,
+                            "n_regions": ends,
+                            "max_region": len(region) - 1,
+                            **dict(zip(REALS[4:], rng.random(4), strict=True)),
+                            "error": None,
+                        }
+                    )
+    count_columns = {name: [*KEY, name, "count"] for name in ("lepp_size", "region_size")}
+    return (
+        pd.DataFrame(results),
+        pd.DataFrame(histograms, columns=count_columns["lepp_size"]),
+        pd.DataFrame(regions, columns=count_columns["region_size"]),
+    )
+
+
+def failed(results, rows, error="InputError: all points lie on one line"):
+    """The results with some rows as a failed task leaves them."""
+    results = results.copy()
+    measured = [name for name in results.columns if name not in (*KEY, "error")]
+    for name in measured:
+        kind = "float64" if name in REALS else "Int64"
+        results[name] = results[name].astype(kind)
+    results.loc[rows, measured] = pd.NA
+    results["error"] = results["error"].astype(object)
+    results.loc[rows, "error"] = error
+    return results
