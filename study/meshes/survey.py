@@ -101,8 +101,8 @@ def as_json(found: Survey) -> dict[str, Any]:
         euler_number, n_holes (null in space).
 
         ``lepp``: mean, sd (over the triangles), skewness, kurtosis (excess), max, quantiles, the
-        share of triangles that end_at_once (their longest edge is terminal), and the histogram as pairs of a size and
-        its number of triangles.
+        share of triangles that end_at_once (their longest edge is terminal), and the histogram as
+        pairs of a size and its number of triangles.
 
         ``worst``: the longest path: its size, the number of triangles with one as long, and path,
         an entry a triangle: its index in this survey, its block and cell in the file (the halves
