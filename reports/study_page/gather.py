@@ -17,7 +17,11 @@ def gather(directory: Path) -> Evidence:
     InputError
         If the directory holds no results that can be read.
     """
-    loaded = store.load(directory)
+    return evidence_of(store.load(directory))
+
+
+def evidence_of(loaded: store.Results) -> Evidence:
+    """Analyse results, and add the report's own tables."""
     design = loaded.design
     tables = dict(analyse(loaded.results, loaded.histograms, loaded.regions, design))
     evidence = Evidence(tables, design, loaded.manifest)
