@@ -91,7 +91,7 @@ def geometric(histograms: Frame) -> Frame:
     law = 0.5 ** (sizes - 1)
     rows = []
     for place, key in enumerate(keys.to_dict("records")):
-        counts = np.random.default_rng(place).multinomial(2_000_000, law / law.sum())
+        counts = np.random.default_rng(place).multinomial(50_000_000, law / law.sum())
         drawn_sizes = zip(sizes.tolist(), counts.tolist(), strict=True)
         rows += [{**key, "lepp_size": s, "count": c} for s, c in drawn_sizes if c]
     return pd.DataFrame(rows)
@@ -144,7 +144,7 @@ CHANGES: dict[str, tuple[Callable, Callable, Callable]] = {
     "widening": (with_means(level, lambda n: n / 1e6), same, same),
     "low p": (with_shares(0.30), histogram_of(LONG), same),
     "high p": (with_shares(0.50), histogram_of(SHORT), same),
-    "rare long paths": (with_shares(0.50), histogram_of(SHORT | {9: 2}), same),
+    "rare long paths": (with_shares(0.50), histogram_of(SHORT | {9: 8}), same),
     "constant rates": (same, geometric, same),
     "out of bounds": (out_of_bounds, same, same),
     "Theorem 1": (moments(mean_lepp=1.001, sd_lepp=0.999), same, same),
