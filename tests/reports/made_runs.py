@@ -89,9 +89,10 @@ def geometric(histograms: Frame) -> Frame:
     keys = histograms[["method", "distribution", "n_points", "replicate"]].drop_duplicates()
     sizes = np.arange(2, 10)
     law = 0.5 ** (sizes - 1)
+    law[-1] *= 2  # with all that are longer
     rows = []
     for place, key in enumerate(keys.to_dict("records")):
-        counts = np.random.default_rng(place).multinomial(2_000_000, law / law.sum())
+        counts = np.random.default_rng(place).multinomial(2_000_000, law)
         drawn_sizes = zip(sizes.tolist(), counts.tolist(), strict=True)
         rows += [{**key, "lepp_size": s, "count": c} for s, c in drawn_sizes if c]
     return pd.DataFrame(rows)
@@ -132,6 +133,7 @@ def large_regions(regions: Frame) -> Frame:
 
 
 LONG = {1: 10, 2: 300, 3: 300, 4: 300, 5: 200, 9: 250, 12: 160}
+UNEVEN = {1: 10, 2: 600, 3: 800, 4: 150, 5: 250, 6: 200}
 FALLING = {1: 10, 2: 900, 3: 300, 4: 160, 5: 100, 6: 80, 9: 400}
 SHORT = {1: 10, 2: 1200, 3: 600, 4: 150, 5: 30, 6: 6}
 
@@ -152,7 +154,10 @@ CHANGES: dict[str, tuple[Callable, Callable, Callable]] = {
         moments(mean_lepp=1.2, sd_lepp=1.3, skewness_lepp=1.1, kurtosis_lepp=1.1), same, same,
     ),
     "mixed Theorem 1": (moments(mean_lepp=1.05, sd_lepp=0.9), same, same),
+    "uneven rates": (same, histogram_of(UNEVEN), same),
     "falling rates": (same, histogram_of(FALLING), same),
+    "straight": (with_means(lambda n: 3.0 + n / 1e5 + 5e-4 * np.cos(n)), same, same),
+    "bent": (with_means(lambda n: 3.1 - 0.05 * np.cos(n / 1500)), same, same),
     "near 4": (with_means(lambda n: 3.99 + 0 * n, lambda n: 0.05 + 0 * n), same, same),
     "poor points": (poor_points, same, same),
 }  # fmt: skip

@@ -48,7 +48,8 @@ def test_opening_on_growth(name):
         direction = {"growing": "grows", "falling": "falls"}[name]
         assert (
             f"The mean {direction} with the number of points, from {samples[0].mean():.4f} at "
-            f"1,000 to {samples[-1].mean():.4f} at 8,000 (Welch's analysis of variance, p = {p_text(p)})"
+            f"1,000 to {samples[-1].mean():.4f} at 8,000 (Welch's analysis of variance, "
+            f"p = {p_text(p)})"
         ) in said
 
 
@@ -84,8 +85,8 @@ def test_analysis_of_variance(name):
     assert page(name).prose("anova") == (
         f"{verdict}, for uniform points; p by test: {tests[0]}, {tests[1]} and {tests[2]}. The "
         f"number of points accounts for {100 * omega:.0f} % of the variance between "
-        f"triangulations. The dependence is small in itself: the groups' means span {min(means):.4f} to "
-        f"{max(means):.4f}."
+        f"triangulations. The dependence is small in itself: the groups' means span "
+        f"{min(means):.4f} to {max(means):.4f}."
     )
 
 

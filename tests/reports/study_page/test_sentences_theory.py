@@ -145,7 +145,12 @@ def test_rates_rise_fall_or_are_constant():
     assert (np.diff(rates("high p")[2:7]) > 0).all()
     assert "rises with every step" in page("high p").finding("figure-termination")
     assert "is constant to a hundredth" in page("constant rates").finding("figure-termination")
-    assert "moves between" in page("falling rates").finding("figure-termination")
+    assert (np.diff(rates("falling rates")[2:7]) < 0).all()
+    assert "falls with every step" in page("falling rates").finding("figure-termination")
+    rate = rates("uneven rates")[2:6]
+    assert f"moves between {100 * rate.min():.1f} % and {100 * rate.max():.1f} %" in page(
+        "uneven rates"
+    ).finding("figure-termination")
 
 
 def test_the_law_of_sizes():
