@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from lepp.geometry.fixed_point import accumulator_sign, add_product, new_accumulator
-from lepp.jit import kernel
+from lepp.jit import inlined, kernel
 
 EPSILON = 2.0**-53
 ORIENTATION_BOUND = (3.0 + 16.0 * EPSILON) * EPSILON
@@ -84,6 +84,30 @@ def uncertain_orientation(ax, ay, bx, by, cx, cy):
 
 
 @kernel
+def turn_is_certain(left, right):
+    """Tell whether the rounded products of a turn differ in the order of the exact ones.
+
+    Parameters
+    ----------
+    left, right : float
+        The two products of rounded differences of which the turn is the difference.
+    """
+    return abs(left - right) > ORIENTATION_BOUND * (abs(left) + abs(right)) + UNDERFLOW
+
+
+@kernel
+def turn_error(width, height):
+    """Bound the rounding error of all turns about a point.
+
+    Parameters
+    ----------
+    width, height : float
+        No point taken is farther from that point than this along x and y.
+    """
+    return 2.0 * ORIENTATION_BOUND * (width * height) + UNDERFLOW
+
+
+@kernel
 def orientation(ax, ay, bx, by, cx, cy):
     """Tell on which side of the line from a to b the point c lies.
 
@@ -95,11 +119,23 @@ def orientation(ax, ay, bx, by, cx, cy):
     """
     left = (ax - cx) * (by - cy)
     right = (ay - cy) * (bx - cx)
-    determinant = left - right
-    bound = ORIENTATION_BOUND * (abs(left) + abs(right)) + UNDERFLOW
-    if abs(determinant) > bound:
-        return 1 if determinant > 0.0 else -1
+    if turn_is_certain(left, right):
+        return 1 if left > right else -1
     return uncertain_orientation(ax, ay, bx, by, cx, cy)
+
+
+@inlined
+def orient(points, a, b, c):
+    """Return `orientation` of three points given by their indices."""
+    return orientation(
+        points[a, 0], points[a, 1], points[b, 0], points[b, 1], points[c, 0], points[c, 1]
+    )
+
+
+@inlined
+def same(points, a, b):
+    """Tell whether two points, given by their indices, coincide."""
+    return points[a, 0] == points[b, 0] and points[a, 1] == points[b, 1]
 
 
 @kernel
@@ -107,10 +143,7 @@ def orientations(points, triangles):
     """Return the `orientation` of each triangle of an (m, 3) array, as (m,) int8."""
     signs = np.empty(len(triangles), np.int8)
     for t in range(len(triangles)):
-        a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
-        signs[t] = orientation(
-            points[a, 0], points[a, 1], points[b, 0], points[b, 1], points[c, 0], points[c, 1]
-        )
+        signs[t] = orient(points, triangles[t, 0], triangles[t, 1], triangles[t, 2])
     return signs
 
 
