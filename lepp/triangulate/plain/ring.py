@@ -69,9 +69,9 @@ def visible_chain(points, ring, first, q):
 
 @kernel
 def replace_edges(ring, first, last, incoming, vertex):
-    """Put edges `incoming`, + 1 into the ring, which meet at a vertex, for those from first to last.
+    """Put two edges that meet at a vertex into the ring, in place of those from `first` to `last`.
 
-    Their `inner` and `root` are left to the caller.
+    They are edges `incoming` and `incoming` + 1; their `inner` and `root` are left to the caller.
     """
     outgoing = incoming + 1
     before, after = ring.before[first], ring.after[last]

@@ -58,17 +58,15 @@ def bounds(waiting, n_roots):
     room : int
         More than the points and their repetitions that can be on the lists of one root's parts.
     """
+    state, of, beyond = waiting.state, waiting.of, waiting.beyond
     count = np.zeros(n_roots, np.int64)
-    for i in range(len(waiting.state)):
-        state = waiting.state[i]
-        if state == INSIDE:
-            count[waiting.of[i]] += 1
-        elif state == ON_SIDE:
-            count[waiting.of[i]] += 1
-            if waiting.beyond[i] >= 0:
-                count[waiting.beyond[i]] += 1
+    for i in range(len(state)):
+        if state[i] == INSIDE or state[i] == ON_SIDE:
+            count[of[i]] += 1
+            if state[i] == ON_SIDE and beyond[i] >= 0:
+                count[beyond[i]] += 1
     starts = np.zeros(n_roots + 1, np.int64)
-    room = 0
+    room = np.int64(0)
     for root in range(n_roots):
         starts[root + 1] = starts[root] + count[root]
         room = max(room, 2 * count[root] + 8)  # on an inner edge a point is on two lists
@@ -79,19 +77,18 @@ def bounds(waiting, n_roots):
 def gather(points, waiting, starts, lists):
     """List the points that are left by root triangle, in the order of insertion."""
     x, y, ident = lists
+    state, of, beyond = waiting.state, waiting.of, waiting.beyond
     end = starts[:-1].copy()
-    for i in range(len(waiting.state)):
-        state = waiting.state[i]
-        if state != INSIDE and state != ON_SIDE:
+    for i in range(len(state)):
+        if state[i] != INSIDE and state[i] != ON_SIDE:
             continue
-        root = np.int64(waiting.of[i])
+        root = of[i]
         while root >= 0:
             k = end[root]
             end[root] = k + 1
             x[k], y[k] = points[i, 0], points[i, 1]
-            ident[k] = ~i if state == ON_SIDE else i
-            is_first = state == ON_SIDE and root == waiting.of[i]
-            root = np.int64(waiting.beyond[i]) if is_first else -1
+            ident[k] = ~i if state[i] == ON_SIDE else i
+            root = beyond[i] if state[i] == ON_SIDE and root == of[i] else np.int32(-1)
 
 
 @kernel
@@ -149,7 +146,7 @@ def subdivide(points, roots, starts, room, lists, n_edges, split, repeats, mesh)
         _push(jobs, 0, (a, b, c), across, (first, stop, second, third), corners, squares)
         n_jobs = 1
         while n_jobs:
-            # Take the triangle that was put down last, and the first of its points.
+            # Take the triangle that was put down last, and split it by the first of its points.
             n_jobs -= 1
             job = jobs[n_jobs]
             first, stop, top_2, top_3 = job["first"], job["stop"], job["top_2"], job["top_3"]
@@ -166,74 +163,30 @@ def subdivide(points, roots, starts, room, lists, n_edges, split, repeats, mesh)
             )  # fmt: skip
             b_c, c_a, a_b = job["b_c"], job["c_a"], job["a_b"]
 
-            # Partition the other points among the parts, and number the edges to p.
-            end_1, end_2, end_3 = first, top_2, top_3
-            if on_side:
-                for k in range(first + 1, stop):
-                    i = ident[k]
-                    q = i if i >= 0 else ~i
-                    side = orient(points, p, c, q)
-                    if side == 0:
-                        if same(points, p, q):
-                            repeats[q] = p
-                            continue
-                        i = ~q
-                    x_k, y_k = x[k], y[k]
-                    if side <= 0:
-                        x[end_2], y[end_2], ident[end_2] = x_k, y_k, i
-                        end_2 += 1
-                    if side >= 0:
-                        x[end_3], y[end_3], ident[end_3] = x_k, y_k, i
-                        end_3 += 1
+            # Partition the other points among the parts (a, b, p), (p, b, c) and (a, p, c); number
+            # the half-edges from p.
+            spans = (first, stop, top_2, top_3)
+            if on_side:  # the first part is flat
+                end_1 = first
+                end_2, end_3 = _partition_beside(points, x, y, ident, repeats, spans, p, c)
                 edge = across_c >> 1
                 if split[edge] == 0:  # else the triangle on the other side came first
                     split[edge] = n_edges
                     n_edges += 2
                 a_to_p, to_b = parts_of(across_c, split[edge])
-                to_a = a_to_p ^ 1
-                to_c = 2 * n_edges
+                to_a, to_c = a_to_p ^ 1, 2 * n_edges
                 n_edges += 1
                 first_part = 1
             else:
-                ax, ay, bx, by = a_x - p_x, a_y - p_y, b_x - p_x, b_y - p_y
-                cx, cy = c_x - p_x, c_y - p_y
-                # No point of the triangle is farther from p.
-                width = max(max(abs(ax), abs(bx)), abs(cx))
-                height = max(max(abs(ay), abs(by)), abs(cy))
-                error = turn_error(width, height)
-                for k in range(first + 1, stop):
-                    x_k, y_k, i = x[k], y[k], ident[k]
-                    dx, dy = x_k - p_x, y_k - p_y
-                    left_of_a = ax * dy - ay * dx
-                    left_of_b = bx * dy - by * dx
-                    left_of_c = cx * dy - cy * dx
-                    in_1 = (left_of_a > 0.0) & (left_of_b < 0.0)
-                    in_2 = (left_of_b > 0.0) & (left_of_c < 0.0)
-                    in_3 = (left_of_c > 0.0) & (left_of_a < 0.0)
-                    if not (
-                        (abs(left_of_a) > error)
-                        & (abs(left_of_b) > error)
-                        & (abs(left_of_c) > error)
-                    ):
-                        q = i if i >= 0 else ~i
-                        in_1, in_2, in_3 = _exact_parts(points, p, a, b, c, q)
-                        n_parts = in_1 + in_2 + in_3
-                        if n_parts == 0:
-                            repeats[q] = p
-                        elif n_parts == 2:
-                            i = ~q
-                    # Written to all three lists, of which one grows: no branch to mispredict.
-                    x[end_1], y[end_1], ident[end_1] = x_k, y_k, i
-                    x[end_2], y[end_2], ident[end_2] = x_k, y_k, i
-                    x[end_3], y[end_3], ident[end_3] = x_k, y_k, i
-                    end_1 += in_1
-                    end_2 += in_2
-                    end_3 += in_3
+                end_1, end_2, end_3 = _partition(
+                    points, x, y, ident, repeats, spans, (p, a, b, c),
+                    (a_x - p_x, a_y - p_y, b_x - p_x, b_y - p_y, c_x - p_x, c_y - p_y),
+                )  # fmt: skip
                 to_a, to_b, to_c = 2 * n_edges, 2 * n_edges + 2, 2 * n_edges + 4
                 n_edges += 3
                 first_part = 0
 
-            # Put the parts down: (a, b, p), (p, b, c) and (a, p, c).
+            # Put the parts down.
             p_a, p_b = squared_length(a_x - p_x, a_y - p_y), squared_length(b_x - p_x, b_y - p_y)
             p_c = squared_length(c_x - p_x, c_y - p_y)
             for part in range(first_part, 3):
@@ -265,6 +218,87 @@ def subdivide(points, roots, starts, room, lists, n_edges, split, repeats, mesh)
                     _push(jobs, n_jobs, vertices, across, spans, corners, squares)
                     n_jobs += 1
     return t, certain
+
+
+@inlined
+def _partition(points, x, y, ident, repeats, spans, vertices, arms):
+    """Partition the points of a triangle (a, b, c) among the three parts that point p makes of it.
+
+    Parameters
+    ----------
+    spans : (int, int, int, int)
+        Bounds of the list, on which p is the first, and tops of the other stacks.
+    vertices : (int, int, int, int)
+        p, a, b, c.
+    arms : (float, ...)
+        Coordinates of a, b, c relative to p.
+
+    Returns
+    -------
+    end_1, end_2, end_3 : int
+        Ends of the lists of (a, b, p), (p, b, c) and (a, p, c).
+    """
+    first, stop, end_2, end_3 = spans
+    end_1 = first
+    p, a, b, c = vertices
+    p_x, p_y = x[first], y[first]
+    ax, ay, bx, by, cx, cy = arms
+    # No point of the triangle is farther from p.
+    width = max(max(abs(ax), abs(bx)), abs(cx))
+    height = max(max(abs(ay), abs(by)), abs(cy))
+    error = turn_error(width, height)
+    for k in range(first + 1, stop):
+        x_k, y_k, i = x[k], y[k], ident[k]
+        dx, dy = x_k - p_x, y_k - p_y
+        left_of_a = ax * dy - ay * dx
+        left_of_b = bx * dy - by * dx
+        left_of_c = cx * dy - cy * dx
+        in_1 = (left_of_a > 0.0) & (left_of_b < 0.0)
+        in_2 = (left_of_b > 0.0) & (left_of_c < 0.0)
+        in_3 = (left_of_c > 0.0) & (left_of_a < 0.0)
+        if not ((abs(left_of_a) > error) & (abs(left_of_b) > error) & (abs(left_of_c) > error)):
+            q = i if i >= 0 else ~i
+            in_1, in_2, in_3 = _exact_parts(points, p, a, b, c, q)
+            n_parts = in_1 + in_2 + in_3
+            if n_parts == 0:
+                repeats[q] = p
+            elif n_parts == 2:
+                i = ~q
+        # Written to all three lists, of which one grows: no branch to mispredict.
+        x[end_1], y[end_1], ident[end_1] = x_k, y_k, i
+        x[end_2], y[end_2], ident[end_2] = x_k, y_k, i
+        x[end_3], y[end_3], ident[end_3] = x_k, y_k, i
+        end_1 += in_1
+        end_2 += in_2
+        end_3 += in_3
+    return end_1, end_2, end_3
+
+
+@inlined
+def _partition_beside(points, x, y, ident, repeats, spans, p, c):
+    """Do the same where p is on the side ab, and the first part is flat.
+
+    Returns
+    -------
+    end_2, end_3 : int
+    """
+    first, stop, end_2, end_3 = spans
+    for k in range(first + 1, stop):
+        x_k, y_k, i = x[k], y[k], ident[k]
+        q = i if i >= 0 else ~i
+        side = orient(points, p, c, q)
+        if side == 0:
+            if same(points, p, q):
+                repeats[q] = p
+                continue
+            i = ~q
+        if side <= 0:
+            x[end_2], y[end_2], ident[end_2] = x_k, y_k, i
+            end_2 += 1
+        if side >= 0:
+            x[end_3], y[end_3], ident[end_3] = x_k, y_k, i
+            end_3 += 1
+    return end_2, end_3
 
 
 @kernel
