@@ -19,7 +19,7 @@ KERNELS = [
     successors.follow,
     successors.step_over,
     delaunay._insert_all,
-    subdivision._subdivide,
+    subdivision.subdivide,
 ]
 
 
