@@ -1,33 +1,4 @@
 // The data block: tables as CSV text, figures as Plotly specifications that refer to them.
-"use strict";
-
-// Bytes of base64 text; a loop is ten times as fast as Uint8Array.from with a function.
-function bytesOf(text) {
-  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
-  const binary = atob(text);
-  const bytes = new Uint8Array(binary.length);
-  for (let k = 0; k < binary.length; k++) bytes[k] = binary.charCodeAt(k);
-  return bytes;
-}
-
-function inflate(id) {
-  const bytes = bytesOf(document.getElementById(id).textContent);
-  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate")));
-}
-
-// Run an inflated script; from a blob the browser compiles it beside the page, not in its way.
-async function runInflated(id) {
-  const address = URL.createObjectURL(await inflate(id).blob());
-  const script = document.createElement("script");
-  script.src = address;
-  await new Promise((resolve, reject) => {
-    script.onload = resolve;
-    script.onerror = () => reject(new Error(`cannot run ${id}`));
-    document.head.append(script);
-  });
-  URL.revokeObjectURL(address);
-}
-
 function parseCsv(text) {
   const rows = [];
   let row = [];

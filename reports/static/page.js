@@ -1,4 +1,4 @@
-// The switch, the address, the theme and the printer.
+// The switch, the address and the printer.
 const root = document.documentElement;
 const bar = document.querySelector(".bar");
 const PAPER_WIDTH = 680;
@@ -56,38 +56,9 @@ function drawTables(report, hosts) {
   }
 }
 
-function setTheme(theme) {
-  if (theme) root.dataset.theme = theme;
-  else delete root.dataset.theme;
-}
-
-function isDark() {
-  return getComputedStyle(root).colorScheme === "dark"
-    || (root.dataset.theme === undefined && matchMedia("(prefers-color-scheme: dark)").matches);
-}
-
-function wireTheme(figures) {
-  const button = document.getElementById("theme");
-  const repaint = () => {
-    button.setAttribute("aria-pressed", String(isDark()));
-    figures.redraw(view);
-  };
-  button.setAttribute("aria-pressed", String(isDark()));
-  button.addEventListener("click", () => {
-    const theme = isDark() ? "light" : "dark";
-    setTheme(theme);
-    try { localStorage.setItem("theme", theme); } catch { /* kept for this visit only */ }
-    repaint();
-  });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", repaint);
-}
-
 function wirePrinter(report, figures) {
   let opened = [];
-  let theme;
-  addEventListener("beforeprint", () => {
-    theme = root.dataset.theme;
-    setTheme("light");
+  printInLight(() => {
     opened = [...document.querySelectorAll("details:not([open])")];
     for (const fold of opened) fold.open = true;
     drawTables(report, document.querySelectorAll("[data-table]"));
@@ -96,10 +67,8 @@ function wirePrinter(report, figures) {
       figures.redraw(view);
       figures.fitToPaper(PAPER_WIDTH);
     }
-  });
-  addEventListener("afterprint", () => {
+  }, () => {
     for (const fold of opened) fold.open = false;
-    setTheme(theme);
     if (window.Plotly) {
       figures.redraw(view);
       figures.fitToScreen();
@@ -180,7 +149,7 @@ async function start() {
   scrollToSection(address().get("section"));
   settle("tables");
 
-  wireTheme(figures);
+  wireTheme(() => figures.redraw(view));
   wirePrinter(report, figures);
   await runInflated("plotly-source");
   figures.watch(() => view);
