@@ -64,7 +64,7 @@ function svg(name, attributes) {
 class Explorer {
   /**
    * @param {HTMLElement} host
-   * @param {Report} report
+   * @param {ReportData} report
    */
   constructor(host, report) {
     this.host = host;
@@ -93,29 +93,37 @@ class Explorer {
 
   /** @param {Record<string, string>} view */
   build(view) {
-    const points = this.report.tables.get("explorer_points");
-    const triangles = this.report.tables.get("explorer_triangles");
-    const numbers = (/** @type {string} */ name) => triangles.column(name, view).map(Number);
-    const [xs, ys] = ["x", "y"].map((name) => points.column(name, view).map(Number));
+    const points = this.columns("explorer_points", view);
+    const [xs, ys] = [points.x.map(Number), points.y.map(Number)];
     const scale = this.scaleOf(xs, ys);
     const drawn = xs.map((x, k) => scale(x, ys[k]));
-    const corners = ["a", "b", "c"].map(numbers);
-    const ends = ["terminal_a", "terminal_b"].map(numbers);
-    const kinds = triangles.column("terminal_edge", view);
-    const successors = triangles.column("successor", view);
-    this.triangles = numbers("lepp_size").map((size, k) => {
-      const [a, b, c] = corners.map((column) => drawn[column[k]]);
+    const of = this.columns("explorer_triangles", view);
+    this.triangles = of.lepp_size.map((size, k) => {
+      const [a, b, c] = [of.a, of.b, of.c].map((vertex) => drawn[Number(vertex[k])]);
+      const successor = of.successor[k];
       return {
         corners: [a, b, c],
         center: [(a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3],
-        size,
-        successor: successors[k] === null ? null : Number(successors[k]),
-        ends: ends.map((column) => drawn[column[k]]),
-        boundary: kinds[k] === "boundary",
+        size: Number(size),
+        successor: successor === null ? null : Number(successor),
+        ends: [of.terminal_a, of.terminal_b].map((vertex) => drawn[Number(vertex[k])]),
+        boundary: of.terminal_edge[k] === "boundary",
       };
     });
     this.largest = Math.max(...this.triangles.map(({ size }) => size));
     this.draw();
+  }
+
+  /**
+   * The columns of a table in this view, by name.
+   * @param {string} name
+   * @param {Record<string, string>} view
+   * @returns {Record<string, Cell[]>}
+   */
+  columns(name, view) {
+    const table = this.report.table(name);
+    return Object.fromEntries(table.columns.map((column) =>
+      [column.name, table.column(column.name, view)]));
   }
 
   /**

@@ -8,10 +8,12 @@ const TIMES = `${SPACE}×${SPACE}`;
 const GOOD = /^(agrees|close|plausible draw|yes|holds)$/;
 const BAD = /^(differs|implausible draw|no)$/;
 
+/** @param {number} power */
 function superscript(power) {
-  return "10" + String(power).replace(/[-0-9]/g, (c) => c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c]);
+  return "10" + String(power).replace(/[-0-9]/g, (c) => c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)]);
 }
 
+/** @param {number} log10 */
 function powerOfTen(log10) {
   let power = Math.floor(log10);
   let mantissa = (10 ** (log10 - power)).toFixed(1);
@@ -19,17 +21,26 @@ function powerOfTen(log10) {
   return mantissa + TIMES + superscript(power);
 }
 
+/** @param {string} text */
 function signed(text) {
   if (!text.startsWith("-")) return text;
   return /[1-9]/.test(text) ? "−" + text.slice(1) : text.slice(1);
 }
 
+/**
+ * @param {number} number
+ * @param {number} digits
+ */
 function fixed(number, digits) {
   const [whole, rest] = number.toFixed(digits).split(".");
   const grouped = whole.replace(/\B(?=(\d{3})+(?!\d))/g, ",");
   return signed(rest === undefined ? grouped : `${grouped}.${rest}`);
 }
 
+/**
+ * @param {number} number
+ * @param {number} digits
+ */
 function significant(number, digits) {
   if (number === 0) return "0";
   const [mantissa, exponent] = number.toExponential(digits - 1).split("e");
@@ -38,11 +49,15 @@ function significant(number, digits) {
   return signed(mantissa) + TIMES + superscript(power);
 }
 
+/**
+ * @param {Cell} value
+ * @param {string} format
+ */
 function show(value, format) {
   if (value === null || Number.isNaN(value)) return "–";
-  if (format === "text") return value;
+  if (typeof value === "string") return value;
   if (!Number.isFinite(value)) return value < 0 ? "−∞" : "∞";
-  const [, kind, digits] = format.match(/^(log10p|[a-z]+)(\d*)$/);
+  const [, kind, digits] = format.match(/^(log10p|[a-z]+)(\d*)$/) ?? [];
   switch (kind) {
     case "int": return fixed(value, 0);
     case "fixed": return Math.abs(value) >= HUGE ? significant(value, 3) : fixed(value, Number(digits));
@@ -55,6 +70,12 @@ function show(value, format) {
   }
 }
 
+/**
+ * @template {keyof HTMLElementTagNameMap} Name
+ * @param {Name} name
+ * @param {Record<string, string>} attributes
+ * @param {...(Node | string)} children
+ */
 function element(name, attributes = {}, ...children) {
   const made = document.createElement(name);
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
@@ -62,6 +83,7 @@ function element(name, attributes = {}, ...children) {
   return made;
 }
 
+/** @param {Table} table */
 function downloadCsv(table) {
   const link = element("a", { download: `${table.name}.csv` });
   link.href = URL.createObjectURL(new Blob([table.csv], { type: "text/csv" }));
@@ -69,7 +91,10 @@ function downloadCsv(table) {
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000); // a busy browser reads it late
 }
 
-// A column of logarithms of p is shown as p, so that is its heading here.
+/**
+ * A column of logarithms of p is shown as p, so that is its heading here.
+ * @param {Column} column
+ */
 function headCell(column) {
   const label = column.format === "log10p" ? column.label.replace(/^log10 /, "") : column.label;
   const cell = element("th", { scope: "col", class: column.format === "text" ? "text" : "number" },
@@ -80,11 +105,16 @@ function headCell(column) {
   return cell;
 }
 
+/**
+ * @param {Cell} value
+ * @param {Column} column
+ * @param {boolean} first
+ */
 function bodyCell(value, column, first) {
   const name = column.name === "method" || column.name === "distribution";
   const text = name ? show(value, "text").replace("_", " ") : show(value, column.format);
   const cell = element(first ? "th" : "td", { class: column.format === "text" ? "text" : "number" });
-  if (first) cell.scope = "row";
+  if (first) cell.setAttribute("scope", "row");
   if (text.length > 48) cell.classList.add("long");
   if (VERDICTS.includes(column.name)) {
     const sense = GOOD.test(text) ? "good" : BAD.test(text) ? "bad" : "";
@@ -93,18 +123,26 @@ function bodyCell(value, column, first) {
   return cell;
 }
 
+/**
+ * @param {HTMLElement} host
+ * @param {ReportData} report
+ * @param {Record<string, string>} view
+ * @param {Record<string, string[]>} choices
+ */
 function drawTable(host, report, view, choices) {
-  const table = report.tables.get(host.dataset.table);
-  const followed = host.dataset.follows.split(" ").filter(Boolean).map((name) => [name, view[name]]);
+  const table = report.table(host.dataset.table ?? "");
+  /** @type {[string, string][]} */
+  const followed = (host.dataset.follows ?? "").split(" ").filter(Boolean).map((name) => [name, view[name]]);
   const where = { ...Object.fromEntries(followed), ...JSON.parse(host.dataset.where ?? "{}") };
   const rows = table.select(where);
   const wanted = host.dataset.columns ? host.dataset.columns.split(" ") : null;
-  const constant = ({ name }) => name in where
+  const constant = (/** @type {Column} */ { name }) => name in where
     || (name in view && choices[name].length === 1);
   const columns = table.columns.filter((column) =>
     !constant(column) && (!wanted || wanted.includes(column.name)));
-  const places = columns.map((column) => table.index.get(column.name));
+  const places = columns.map((column) => table.place(column.name));
 
+  const caption = host.dataset.caption ?? "";
   const body = element("tbody");
   const printed = "whole" in host.dataset ? rows.length : PRINTED_ROWS;
   rows.forEach((row, r) => {
@@ -112,12 +150,16 @@ function drawTable(host, report, view, choices) {
     columns.forEach((column, k) => line.append(bodyCell(row[places[k]], column, k === 0)));
     body.append(line);
   });
-  const grid = element("table", {}, element("caption", {}, element("span", {}, host.dataset.caption)),
+  const grid = element("table", {}, element("caption", {}, element("span", {}, caption)),
     element("thead", {}, element("tr", {}, ...columns.map(headCell))), body);
-  const scroll = element("div",
-    { class: rows.length > LONG ? "scroll long" : "scroll", role: "region", tabindex: "0", "aria-label": host.dataset.caption }, grid);
+  const scroll = element("div", {
+    class: rows.length > LONG ? "scroll long" : "scroll",
+    role: "region",
+    tabindex: "0",
+    "aria-label": caption,
+  }, grid);
   const button = element("button", { type: "button", class: "csv" }, "Download CSV");
-  button.setAttribute("aria-label", `Download CSV of: ${host.dataset.caption}`);
+  button.setAttribute("aria-label", `Download CSV of: ${caption}`);
   button.addEventListener("click", () => downloadCsv(table));
   const foot = element("div", { class: "foot" });
   const said = [table.note];

@@ -95,11 +95,14 @@ test("triangles are brought to the middle, in their share of the screen", () => 
 test("a triangle out of view is brought into view, one in view stays", () => {
   const projection = shown(randomMesh(60, 7));
   assert.equal(projection.reveal([3]), false);
-  projection.zoom(1, 0, 0, 5000, 0);
-  assert.equal(projection.inView(), 0);
-  assert.equal(projection.reveal([3]), true);
-  const [left, right, top, bottom] = projection.bounds([3]);
-  assert.ok(left >= 0 && right <= 400 && top >= 0 && bottom <= 300);
+  assert.equal(projection.inView(), projection.mesh.m);
+  for (const [x, y] of [[5000, 0], [-5000, 0], [0, 5000], [0, -5000]]) {
+    projection.zoom(1, 0, 0, x, y);
+    assert.equal(projection.inView(), 0);
+    assert.equal(projection.reveal([3]), true);
+    const [left, right, top, bottom] = projection.bounds([3]);
+    assert.ok(left >= 0 && right <= 400 && top >= 0 && bottom <= 300);
+  }
 });
 
 test("another size of the screen keeps the whole whole, and the middle of a part", () => {
@@ -189,10 +192,13 @@ test("colours are packed as a canvas keeps them, red first", () => {
   assert.equal(packColor("rgb(255 255 255)"), 0xffffffff);
 });
 
-for (const [name, small] of Object.entries({ plane: randomMesh(80, 4), space: tetrahedron(), flat: lattice(3) })) {
+/** @type {[string, import("./meshes.js").Small, number][]} */
+const RASTERED = [["plane", randomMesh(80, 4), 0], ["flat in space", lattice(3), 0.5],
+  ["space", tetrahedron(), 0.5], ["the same from behind", tetrahedron(), 0.5 + Math.PI]];
+for (const [name, small, aside] of RASTERED) {
   test(`every pixel has the colour of the triangle that its middle hits: ${name}`, () => {
     const projection = shown(small, 60, 40);
-    if (projection.mesh.space) projection.turn(0.5, 0.4);
+    if (projection.mesh.space) projection.turn(aside, 0.4);
     projection.mesh.shades = Uint8Array.from(small.triangles, (_, t) => t); // a colour each
     const colors = small.triangles.map((_, t) => Array(LEVELS).fill(t + 1));
     const pixels = rasterize(projection, colors, 120, 80, 2);

@@ -39,11 +39,12 @@ test("to turn aside brings what is in front to the right, downwards below", () =
   assert.ok(dot(turnBy(start, "x", 0.1).slice(3, 6), front) < -0.09);
 });
 
-test("every side of a tetrahedron can be brought to the front", () => {
-  const mesh = meshOf(tetrahedron());
-  const points = tetrahedron().points.map((point) => point.map((x) => x - 0.3)); // about the middle
-  mesh.points.set(points.flat());
-  for (let t = 0; t < 4; t++) {
+test("every side of a tetrahedron can be brought to the front, whichever way it is oriented", () => {
+  const { points: corner, triangles } = tetrahedron();
+  const points = corner.map((point) => point.map((x) => x - 0.3)); // about the middle
+  const outward = meshOf({ points, triangles });
+  const inward = meshOf({ points, triangles: triangles.map(([a, b, c]) => [a, c, b]) });
+  for (const [t, mesh] of [0, 1, 2, 3].flatMap((side) => [[side, outward], [side, inward]])) {
     const matrix = facing(mesh, [t]);
     assertRotation(matrix);
     const depth = (/** @type {number[]} */ point) => dot(matrix.slice(6), point);

@@ -15,6 +15,7 @@ import trimesh
 from playwright.sync_api import Browser, Page
 
 import lepp
+from reports.mesh_page import findings
 from reports.mesh_page import page as mesh_page
 from reports.mesh_page.page import drawn_triangles, packed, render, size_classes
 from study.meshes.read import ReadMesh
@@ -68,6 +69,13 @@ def fan() -> Survey:
     return _survey(points, triangles, "fan.vtu")
 
 
+@pytest.fixture(scope="module")
+def kite() -> Survey:
+    """The path of the second triangle ends in a pair, that of the first on the boundary."""
+    points = np.array([(0, 0), (5, 0), (3, 4), (2, -1)], float)
+    return _survey(points, np.array([(0, 1, 2), (1, 0, 3)]), "kite.vtu")
+
+
 def unpacked(found: Survey, drawn: np.ndarray) -> list[np.ndarray]:
     about = mesh_page.drawing(found, drawn)
     content = zlib.decompress(base64.b64decode(packed(found, drawn)))
@@ -79,7 +87,7 @@ def unpacked(found: Survey, drawn: np.ndarray) -> list[np.ndarray]:
     return [points.view("<f4").reshape(n, d), rest[0].reshape(m, 3), *rest[1:], ends]
 
 
-@pytest.mark.parametrize("name", ["plane", "surface", "lattice", "fan"])
+@pytest.mark.parametrize("name", ["plane", "surface", "lattice", "fan", "kite"])
 def test_data_block_is_the_survey(name: str, request: pytest.FixtureRequest) -> None:
     found: Survey = request.getfixturevalue(name)
     drawn = drawn_triangles(found)
@@ -115,6 +123,21 @@ def test_of_a_large_mesh_the_surroundings_of_the_longest_path_are_drawn(plane: S
             assert numbers[successors[place]] == following
         else:
             assert successors[place] == -1
+
+
+@pytest.mark.parametrize("name", ["plane", "lattice", "fan", "kite"])
+def test_longest_path_is_told_with_the_edge_that_it_ends_at(
+    name: str, request: pytest.FixtureRequest
+) -> None:
+    found: Survey = request.getfixturevalue(name)
+    *_, before, last = found.worst_path
+    shared = set(found.triangulation.triangles[before]) & set(found.triangulation.triangles[last])
+    said = re.search(r"edge is (.*), from point ([\d,]+) to point ([\d,]+)", findings.worst(found))
+    assert said
+    ends = {int(point.replace(",", "")) for point in said.groups()[1:]}
+    in_pair = found.paths.neighbor_types[before] == lepp.TYPE_C
+    assert said[1] == ("between the last two" if in_pair else "on the boundary")
+    assert (ends == shared) == in_pair
 
 
 @pytest.mark.parametrize("largest", [1, 2, 5, 6, 16, 17, 40, 5000])

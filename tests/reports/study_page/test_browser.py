@@ -162,7 +162,7 @@ def test_cells_show_the_numbers_of_the_tables(open_report: Open, run_directory: 
     for name, table in gather(run_directory).tables.items():
         cells = page.evaluate(
             """async name => {
-                const report = new Report(await inflate('report-data').json());
+                const report = new ReportData(await inflate('report-data').json());
                 const table = report.tables.get(name);
                 return table.rows.map(row => row.map((v, k) => show(v, table.columns[k].format)));
             }""",
