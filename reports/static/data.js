@@ -1,4 +1,5 @@
-// The data block: tables as CSV text, figures as Plotly specifications that refer to them.
+// The data block: tables, cell by cell as files have them and as they are shown, and figures as
+// Plotly specifications that refer to them.
 "use strict";
 
 // Bytes of base64 text; a loop is ten times as fast as Uint8Array.from with a function.
@@ -28,49 +29,43 @@ async function runInflated(id) {
   URL.revokeObjectURL(address);
 }
 
-function parseCsv(text) {
-  const rows = [];
-  let row = [];
-  let cell = "";
-  let quoted = false;
-  for (let k = 0; k < text.length; k++) {
-    const character = text[k];
-    if (quoted) {
-      if (character !== '"') cell += character;
-      else if (text[k + 1] === '"') { cell += '"'; k++; }
-      else quoted = false;
-    } else if (character === '"') quoted = true;
-    else if (character === ",") { row.push(cell); cell = ""; }
-    else if (character === "\n") { row.push(cell); rows.push(row); row = []; cell = ""; }
-    else cell += character;
-  }
-  return rows;
-}
+const quoted = (cell) => /[",\r\n]/.test(cell) ? `"${cell.replaceAll('"', '""')}"` : cell;
 
 class Table {
-  constructor(name, { title, note, columns, csv }) {
-    Object.assign(this, { name, title, note, columns, csv });
-    this.index = new Map(columns.map((column, k) => [column.name, k]));
+  // A column has the texts of its cells: `raw` as in the CSV file, `shown` where that differs.
+  constructor(name, { title, note, columns }) {
+    Object.assign(this, { name, title, note, columns });
+    this.byName = new Map(columns.map((column) => [column.name, column]));
+    this.length = columns[0].raw.length;
   }
 
-  // Rows of cells: text as it is, numbers as doubles, null for an empty cell.
-  get rows() {
-    const numeric = this.columns.map((column) => column.format !== "text");
-    const read = (cell, k) => cell === "" ? null : numeric[k] ? Number(cell) : cell;
-    const rows = parseCsv(this.csv).slice(1).map((row) => row.map(read));
-    Object.defineProperty(this, "rows", { value: rows });
-    return rows;
+  has(name) {
+    return this.byName.has(name);
   }
 
-  select(where) {
-    const wanted = Object.entries(where).filter(([name]) => this.index.has(name))
-      .map(([name, value]) => [this.index.get(name), value]);
-    return this.rows.filter((row) => wanted.every(([k, value]) => String(row[k]) === String(value)));
+  get(name) {
+    const column = this.byName.get(name);
+    if (!column) throw new Error(`table ${this.name} has no column ${name}`);
+    return column;
   }
 
-  column(name, where = {}) {
-    const k = this.index.get(name);
-    return this.select(where).map((row) => row[k]);
+  // Places of the rows whose columns have the values asked for.
+  select(where = {}) {
+    const wanted = Object.entries(where).map(([name, value]) => [this.get(name).raw, String(value)]);
+    return [...Array(this.length).keys()].filter((row) =>
+      wanted.every(([raw, value]) => raw[row] === value));
+  }
+
+  // Values of a column: words as they are, numbers as doubles, null for an empty cell.
+  values(name, rows) {
+    const { raw, number } = this.get(name);
+    return rows.map((row) => raw[row] === "" ? null : number ? Number(raw[row]) : raw[row]);
+  }
+
+  get csv() {
+    const lines = [this.columns.map((column) => column.header),
+      ...this.select().map((row) => this.columns.map((column) => column.raw[row]))];
+    return lines.map((line) => line.map(quoted).join(",") + "\n").join("");
   }
 }
 
@@ -81,13 +76,20 @@ class Report {
     this.figures = figures;
   }
 
+  table(name) {
+    const table = this.tables.get(name);
+    if (!table) throw new Error(`there is no table ${name}`);
+    return table;
+  }
+
   // Put the columns of tables where a figure refers to them.
   resolve(node) {
     if (Array.isArray(node)) return node.map((item) => this.resolve(item));
     if (node === null || typeof node !== "object") return node;
     if (node.$) {
       const [table, column, where] = node.$;
-      return this.tables.get(table).column(column, where);
+      const rows = this.table(table).select(where);
+      return this.table(table).values(column, rows);
     }
     return Object.fromEntries(Object.entries(node).map(([key, item]) => [key, this.resolve(item)]));
   }

@@ -27,18 +27,16 @@ class Explorer {
   }
 
   build(view) {
-    const points = this.report.tables.get("explorer_points").select(view);
-    const table = this.report.tables.get("explorer_triangles");
-    const at = (name) => table.index.get(name);
-    const [px, py] = ["x", "y"].map((name) => this.report.tables.get("explorer_points").index.get(name));
-    const scale = this.scaleOf(points.map((row) => [row[px], row[py]]));
-    this.points = points.map((row) => scale(row[px], row[py]));
-    this.triangles = table.select(view).map((row) => ({
-      corners: ["a", "b", "c"].map((name) => this.points[row[at(name)]]),
-      size: row[at("lepp_size")],
-      successor: row[at("successor")],
-      ends: [this.points[row[at("terminal_a")]], this.points[row[at("terminal_b")]]],
-      boundary: row[at("terminal_edge")] === "boundary",
+    const points = this.columns("explorer_points", view);
+    const scale = this.scaleOf(points.x, points.y);
+    this.points = points.x.map((x, k) => scale(x, points.y[k]));
+    const of = this.columns("explorer_triangles", view);
+    this.triangles = of.lepp_size.map((size, k) => ({
+      corners: [of.a, of.b, of.c].map((vertex) => this.points[vertex[k]]),
+      size,
+      successor: of.successor[k],
+      ends: [this.points[of.terminal_a[k]], this.points[of.terminal_b[k]]],
+      boundary: of.terminal_edge[k] === "boundary",
     }));
     for (const triangle of this.triangles) {
       triangle.center = [0, 1].map((i) => triangle.corners.reduce((sum, c) => sum + c[i], 0) / 3);
@@ -47,8 +45,15 @@ class Explorer {
     this.draw();
   }
 
-  scaleOf(points) {
-    const [xs, ys] = [0, 1].map((i) => points.map((point) => point[i]));
+  // The columns of a table in this view, by name.
+  columns(name, view) {
+    const table = this.report.table(name);
+    const rows = table.select(view);
+    return Object.fromEntries(table.columns.map((column) =>
+      [column.name, table.values(column.name, rows)]));
+  }
+
+  scaleOf(xs, ys) {
     const [left, right] = [Math.min(...xs), Math.max(...xs)];
     const [low, high] = [Math.min(...ys), Math.max(...ys)];
     const room = SIDE - 32;

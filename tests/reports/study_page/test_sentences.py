@@ -10,6 +10,8 @@ from reports.page.views import View
 from reports.study_page.gather import gather
 from reports.study_page.sections import agreement, found, theory
 from reports.study_page.sections.randomness import randomness
+from study.analysis.group_summaries import GROUPS
+from study.analysis.path_lengths import LAW
 
 VIEW = View("incremental", "uniform")
 
@@ -22,8 +24,8 @@ def evidence(run_directory: Path) -> Evidence:
 def altered(evidence: Evidence, table: str, **values: object) -> Evidence:
     """Copy the evidence with columns of a table set to a value."""
     frame = evidence.tables[table].frame.assign(**values)
-    tables = evidence.tables | {table: replace(evidence.tables[table], frame=frame)}
-    return Evidence(tables, evidence.design, evidence.manifest)
+    changed = replace(evidence.tables[table], frame=frame)
+    return replace(evidence, tables=evidence.tables.adding(changed))
 
 
 def prose(section: object, block_of: int = 0, part_of: int = 0) -> str:
@@ -78,7 +80,7 @@ def test_chance_is_not_blamed_for_too_many_rejections(evidence: Evidence) -> Non
 
 def test_numbers_in_tiles_are_those_of_the_tables(evidence: Evidence) -> None:
     tiles = found.section(evidence).parts[0].blocks[0].tiles[VIEW.key]  # type: ignore[union-attr]
-    rows = evidence.rows("groups", VIEW)
+    rows = evidence.rows(GROUPS, VIEW)
     assert tiles[0].value == f"{rows['mean_lepp'].iloc[-1]:.4f}"
-    histograms = evidence.rows("law", VIEW)
-    assert tiles[1].value == str(histograms.loc[histograms["count"] > 0, "lepp_size"].max())
+    histograms = evidence.rows(LAW, VIEW)
+    assert tiles[1].value == str(histograms["lepp_size"][histograms["count"] > 0].max())

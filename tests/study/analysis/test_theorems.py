@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 from frames import design, frames
 from scipy import stats
-from test_assumptions import values_of
+from test_group_assumptions import values_of
 
 from lepp import LeppCounts
 from study.analysis import analyse
-from study.analysis.paths import ratio_interval
-from study.statistics.intervals import at_least
+from study.statistics.intervals import at_least, ratio_interval
 
 
 def test_shares_of_types_by_hand(study):

@@ -6,9 +6,9 @@ import pytest
 from scipy import stats
 from statsmodels.formula.api import ols
 from statsmodels.stats.anova import anova_lm
-from test_assumptions import values_of
+from test_group_assumptions import values_of
 
-from study.analysis.variance import population_share
+from study.statistics.effect_size import population_share
 
 
 def rows(study, test):

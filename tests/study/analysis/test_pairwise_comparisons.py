@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from study.analysis.games_howell import games_howell
-from study.analysis.measurements import Groups
+from study.statistics.games_howell import games_howell
+from study.statistics.groups import Groups
 
 
 @pytest.fixture(scope="module")
