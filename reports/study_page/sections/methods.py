@@ -98,7 +98,7 @@ def _same_points(evidence: Evidence, distribution: str) -> list[str] | None:
         f"{_each_method(evidence)} On the same {largest.first['n_points']:,} "
         f"{distribution_word(distribution)} points the mean LEPP sizes are "
         f"{listed(_beside(means, 'fixed4'))}, and the shares p of type C neighbours "
-        f"{listed(_beside(shares, 'fixed4'))}. {_premise(shares)}"
+        f"{listed(_beside(shares, 'fixed4'))}. {premise(shares)}"
     ]
     growth = evidence.rows(GROWTH, distribution=distribution)
     if not growth.empty:
@@ -135,7 +135,8 @@ def _beside(values: dict[str, float], shown_as: str) -> list[str]:
     return [f"{show(value, shown_as)} ({METHODS[name].word})" for name, value in values.items()]
 
 
-def _premise(shares: dict[str, float]) -> str:
+def premise(shares: dict[str, float]) -> str:
+    """Say which methods keep the premise of Theorem 2, from their shares p by name."""
     below = [METHODS[name].word for name, p in shares.items() if p < LEAST_P]
     if not below:
         return f"{every(len(shares))} are above the {LEAST_P_TEXT} that Theorem 2 supposes."
