@@ -6,16 +6,19 @@ A text or a figure that depends on the switch is a mapping from a view's key to 
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from markupsafe import Markup
 
 from reports.page.style import Spec
 from reports.page.views import View
-from study.analysis.table import DISTRIBUTION, METHOD, Declaration, check_columns
+
+if TYPE_CHECKING:
+    from study.analysis.table import Declaration
 
 ALWAYS = "*"
 #: The columns that the page's switches pick rows by.
-SWITCHES = (METHOD.name, DISTRIBUTION.name)
+SWITCHES = ("method", "distribution")
 
 
 @dataclass(frozen=True)
@@ -76,7 +79,7 @@ class TableBlock:
         If the table has no such column.
     """
 
-    table: Declaration
+    table: "Declaration"
     caption: str
     columns: tuple[str, ...] = ()
     follows: tuple[str, ...] | None = None
@@ -87,7 +90,7 @@ class TableBlock:
 
     def __post_init__(self) -> None:
         asked = (*self.columns, *self.followed, *self.where)
-        check_columns(asked, self.table.column_names, f"table {self.table.name!r}")
+        self.table.check_columns(asked)
 
     @property
     def followed(self) -> tuple[str, ...]:

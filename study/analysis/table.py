@@ -267,6 +267,10 @@ class Declaration:
         """Names of the columns, in order."""
         return [column.name for column in self.columns]
 
+    def check_columns(self, asked: Iterable[str]) -> None:
+        """Raise UnknownNameError unless all columns asked for are declared."""
+        check_columns(asked, self.column_names, f"table {self.name!r}")
+
     def table(self, rows: Iterable[Mapping[str, object]], **values: object) -> Table:
         """Make the table of one mapping a row; what a mapping lacks is a null cell.
 
@@ -276,7 +280,7 @@ class Declaration:
         rows = list(rows)
         names = set(self.column_names)
         for row in rows:
-            check_columns(row.keys() - names, self.column_names, f"table {self.name!r}")
+            self.check_columns(row.keys() - names)
         frame = pd.DataFrame(
             {
                 column.name: _series([row.get(column.name) for row in rows], column)
