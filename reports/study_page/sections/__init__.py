@@ -7,12 +7,12 @@ from reports.page.views import distribution_name
 from reports.study_page.sections import (
     agreement,
     data,
-    found,
     methods,
     provenance,
     regions,
     regressions,
     statistics,
+    summary,
     theory,
 )
 from reports.text.numbers import count, large, listed
@@ -31,7 +31,7 @@ _MOST_ALARMS = 6
 
 def all_sections(evidence: Evidence) -> list[Section]:
     """Make every section that the run gives reason for."""
-    modules = [found, agreement, theory, statistics, regressions]
+    modules = [summary, agreement, theory, statistics, regressions]
     if len(evidence.design.methods) > 1:
         modules.append(methods)
     modules += [regions, data, provenance]
@@ -60,7 +60,7 @@ def alarms(evidence: Evidence) -> list[str]:
     """Say what is missing, the tasks first; a full run that only lacks a fit has no alarm."""
     rows = evidence.rows(MISSING)
     tasks = rows.select(what=TRIANGULATIONS_MISSING).frame
-    said = [
+    sentences = [
         f"{_whose(evidence, row.distribution, row.method)}{row.why}." for row in tasks.itertuples()
     ]
     # That means show no saturation is a finding, and what was not asked for is not missed.
@@ -70,11 +70,14 @@ def alarms(evidence: Evidence) -> list[str]:
     for row in others.drop_duplicates(["what", "distribution"]).itertuples():
         lacking.setdefault(row.why, []).append(row.what)
     for why, whats in lacking.items():
-        said.append(f"Not computed: {listed(list(dict.fromkeys(whats)))}, because {why}.")
-    if len(said) > _MOST_ALARMS:
-        rest = len(said) - _MOST_ALARMS + 1
-        said = [*said[: _MOST_ALARMS - 1], f"{rest} more, listed under “How it was made”."]
-    return said
+        sentences.append(f"Not computed: {listed(list(dict.fromkeys(whats)))}, because {why}.")
+    if len(sentences) > _MOST_ALARMS:
+        rest = len(sentences) - _MOST_ALARMS + 1
+        sentences = [
+            *sentences[: _MOST_ALARMS - 1],
+            f"{rest} more, listed under “How it was made”.",
+        ]
+    return sentences
 
 
 def _whose(evidence: Evidence, distribution: str, method: str) -> str:

@@ -90,9 +90,9 @@ def _verdicts(evidence: Evidence, view: View) -> list[str] | None:
     total = rows.frame[["numbers", *map(verdict_column, VERDICTS)]].sum()
     agrees, close, differs = (int(total[verdict_column(v)]) for v in (AGREES, CLOSE, DIFFERS))
     judged = agrees + close + differs
-    said = [f"The paper prints {total['numbers']} numbers in its seven tables."]
+    sentences = [f"The paper prints {total['numbers']} numbers in its seven tables."]
     if judged:
-        said.append(
+        sentences.append(
             f"{judged} of them can be held against ours by their standard errors: "
             f"{agrees} within {AGREES_UP_TO:g} (agreement), {close} within {CLOSE_UP_TO:g} (close) "
             f"and {differs} beyond (different). By chance alone, {ONE_IN_TWENTY} would not "
@@ -101,21 +101,21 @@ def _verdicts(evidence: Evidence, view: View) -> list[str] | None:
     odd = int(total[verdict_column(IMPLAUSIBLE)])
     drawn = int(total[verdict_column(PLAUSIBLE)]) + odd
     if drawn:
-        said.append(
+        sentences.append(
             f"{drawn} are random draws that no other run can repeat; "
             + ("all are plausible." if not odd else f"{odd} of them are not plausible.")
         )
     if misprints := int(total[verdict_column(MISPRINT)]):
         prints = evidence.rows(REPRODUCTION, method=view.method, verdict=MISPRINT)
         numbers = [f"{row.printed} ({row.quantity})" for row in prints.frame.itertuples()]
-        said.append(f"{count(misprints, 'number')} must be a misprint: {listed(numbers)}.")
+        sentences.append(f"{count(misprints, 'number')} must be a misprint: {listed(numbers)}.")
     for name, words in (
         (NOT_COMPARABLE, "cannot be compared with this design"),
         (NOT_RUN, "belong to groups that this run does not have"),
     ):
         if total[verdict_column(name)]:
-            said.append(f"{total[verdict_column(name)]} {words}.")
-    paragraphs = [" ".join(said)]
+            sentences.append(f"{total[verdict_column(name)]} {words}.")
+    paragraphs = [" ".join(sentences)]
     if view.method != REFERENCE_METHOD:
         paragraphs.append(
             "The paper's triangulations are made by inserting the points as they come, without "

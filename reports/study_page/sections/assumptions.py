@@ -40,7 +40,7 @@ def assumptions(evidence: Evidence) -> Subsection:
 
 
 def _assumptions(evidence: Evidence, view: View) -> list[str] | None:
-    said = []
+    sentences = []
     levene = evidence.rows(LEVENE, view)
     if not levene.empty:
         unequal = levene["equal_variances"] == REJECTED
@@ -50,28 +50,28 @@ def _assumptions(evidence: Evidence, view: View) -> list[str] | None:
             f"{show(first['f'], 'fixed2')}, p\u00a0=\u00a0{show(first['log10_p'], 'log10p')}"
         )
         if unequal.all():
-            said.append(
+            sentences.append(
                 f"The groups' variances are not equal: {numbers}. The spread between "
                 f"triangulations {_trend(evidence, view)}, and the classical analysis of variance "
                 "supposes that it does not change; the tests below that do without are the ones to "
                 "read."
             )
         elif unequal.any():
-            said.append(
+            sentences.append(
                 f"Whether the groups' variances are equal depends on the centre: {numbers}."
             )
         else:
-            said.append(f"Equal variances of the groups are not rejected: {numbers}.")
+            sentences.append(f"Equal variances of the groups are not rejected: {numbers}.")
     shapiro = evidence.rows(SHAPIRO, view)
     if not shapiro.empty:
         below = int((shapiro["p"] < SIGNIFICANCE).sum())
         rejected = int((shapiro["normal"] == REJECTED).sum())
-        said.append(
+        sentences.append(
             f"Shapiro-Wilk gives p below {SIGNIFICANCE} in {none_or(below)} of "
             f"{count(len(shapiro), 'group')}; {ONE_IN_TWENTY} would by chance. After Holm's "
             f"correction {none_or(rejected)} {'is' if rejected == 1 else 'are'} rejected as normal."
         )
-    return said or None
+    return sentences or None
 
 
 def _trend(evidence: Evidence, view: View) -> str:

@@ -94,7 +94,7 @@ def _same_points(evidence: Evidence, distribution: str) -> list[str] | None:
     largest = rows.select(n_points=rows["n_points"].max())
     means = _by_method(largest.select(quantity=MEAN_LEPP), "mean")
     shares = _by_method(largest.select(quantity=SHARE_P), "mean")
-    said = [
+    sentences = [
         f"{_each_method(evidence)} On the same {largest.first['n_points']:,} "
         f"{distribution_word(distribution)} points the mean LEPP sizes are "
         f"{listed(_beside(means, 'fixed4'))}, and the shares p of type C neighbours "
@@ -103,11 +103,11 @@ def _same_points(evidence: Evidence, distribution: str) -> list[str] | None:
     growth = evidence.rows(GROWTH, distribution=distribution)
     if not growth.empty:
         slopes = _beside(_by_method(growth, "slope"), "g2")
-        said.append(
+        sentences.append(
             f"With each doubling of the points the mean changes by {listed(slopes)}; "
             f"{_differing_growth(growth)}."
         )
-    return said
+    return sentences
 
 
 def _each_method(evidence: Evidence) -> str:

@@ -55,7 +55,7 @@ def _completeness(evidence: Evidence) -> tuple:
     overview = evidence.rows(OVERVIEW)
     asked, done, failed = (int(overview[c].sum()) for c in ("asked", "triangulations", "failed"))
     repeated = int(overview["repeated_points"].sum())
-    said = (
+    sentence = (
         f"All {count(asked, 'triangulation')} were made; none failed."
         if done == asked
         else f"Of {count(asked, 'triangulation')}, {done:,} were made, {failed:,} failed and "
@@ -68,7 +68,7 @@ def _completeness(evidence: Evidence) -> tuple:
         else ""
     )
     blocks: list = [
-        common(said + left_out),
+        common(sentence + left_out),
         TableBlock(OVERVIEW, "The study at a glance", follows=()),
     ]
     if not evidence.rows(MISSING).empty:

@@ -91,32 +91,32 @@ def _fits(evidence: Evidence, view: View) -> list[str] | None:
     by = {name: best(evidence, view, name) for name in ("aic", "bic", "left_out_rmse")}
     names = {name: row["model"] for name, row in by.items() if row is not None}
     four = rows.frame[rows["model"].isin([model.name for model in LINEAR_MODELS])]
-    said = []
+    sentences = []
     if not four.empty:
         top = four.loc[four["adj_r2"].idxmax()]
-        said.append(
+        sentences.append(
             f"Of the paper's four models the {top['model']} one fits the {view.distribution_word} "
             f"points best, with an adjusted R² of {show(top['adj_r2'], 'fixed3')}."
         )
     winners = set(names.values())
     labels = {"aic": "AIC", "bic": "BIC", "left_out_rmse": "the error of left-out groups"}
     if len(winners) == 1:
-        said.append(
+        sentences.append(
             f"AIC, BIC and the error of left-out groups all choose the {winners.pop()} model."
         )
     elif winners:
-        said.append(
+        sentences.append(
             "The criteria do not agree: "
             + listed([f"{labels[name]} chooses the {model} model" for name, model in names.items()])
             + "."
         )
     lacking = rows["model"][rows["lack_of_fit_p"] < SIGNIFICANCE].tolist()
     if lacking:
-        said.append(
+        sentences.append(
             f"The {listed(lacking)} {'model does' if len(lacking) == 1 else 'models do'} not "
             f"follow the groups' means: lack of fit is significant at {SIGNIFICANCE}."
         )
-    return [" ".join(said)]
+    return [" ".join(sentences)]
 
 
 def _figure_6(evidence: Evidence) -> FigureBlock:

@@ -93,16 +93,16 @@ def _anova(evidence: Evidence, view: View) -> list[str] | None:
         if not differ.any()
         else "The tests disagree on whether the mean LEPP size depends on the number of points"
     )
-    said = [f"{verdict}, for {view.distribution_word} points; p by test: {tests}."]
+    sentences = [f"{verdict}, for {view.distribution_word} points; p by test: {tests}."]
     effect = evidence.one(ANOVA, view, effect=OMEGA_SQUARED)
     groups = evidence.rows(GROUPS, view)["mean_lepp"].dropna()
     if effect is not None and len(groups) > 1:
-        said.append(
+        sentences.append(
             f"The number of points accounts for {show(effect['effect_size'], 'percent0')} of the "
             f"variance between triangulations. The dependence is small in itself: the groups' "
             f"means span {show(groups.min(), 'fixed4')} to {show(groups.max(), 'fixed4')}."
         )
-    return said
+    return sentences
 
 
 def _pairs(evidence: Evidence) -> FigureBlock:
@@ -168,7 +168,7 @@ def _pairs(evidence: Evidence) -> FigureBlock:
 
 
 def _bounds(evidence: Evidence, view: View) -> list[str] | None:
-    said = []
+    sentences = []
     for bound, side in ((UPPER_BOUND, "below"), (LOWER_BOUND, "above")):
         rows = evidence.rows(BOUNDS, view, bound=bound)
         if rows.empty:
@@ -178,15 +178,15 @@ def _bounds(evidence: Evidence, view: View) -> list[str] | None:
         where = (
             "every group" if rejected == len(rows) else f"{rejected} of {count(len(rows), 'group')}"
         )
-        said.append(
+        sentences.append(
             f"In {where} of {view.distribution_word} points the mean is significantly {side} "
             f"{bound}; the largest p is {show(weakest, 'log10p')}, corrected for all tests."
         )
     rows = evidence.rows(BOUNDS, view, bound=UPPER_BOUND)
     if not rows.empty:
-        said.append(
+        sentences.append(
             "A p-value says only that the mean is not the bound; its interval says how far it is: "
             f"over all groups they reach from {show(rows['mean_low'].min(), 'fixed4')} "
             f"to {show(rows['mean_high'].max(), 'fixed4')}."
         )
-    return [" ".join(said)] if said else None
+    return [" ".join(sentences)] if sentences else None

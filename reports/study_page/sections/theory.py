@@ -338,7 +338,7 @@ def _law(evidence: Evidence) -> FigureBlock:
             return None
         common = rows.loc[rows["share"].idxmax()]
         long = rows[rows["lepp_size"] >= LONG]
-        said = (
+        sentence = (
             f"The commonest size is {common['lepp_size']} ({show(common['share'], 'percent1')} of "
             f"the triangles; the law has {show(common['geometric_share'], 'percent1')})."
         )
@@ -346,14 +346,14 @@ def _law(evidence: Evidence) -> FigureBlock:
             # The law's own tail: (1 - p)^(k - 2) of the paths are of size k and more.
             p = float(evidence.rows(TERMINATION, view).first["p_type_c"])
             measured, expected = float(long["share"].sum()), float((1 - p) ** (LONG - 2))
-            said += (
+            sentence += (
                 f" Sizes of {LONG} and more are {show(expected / measured, 'g2')} times rarer than "
                 "in the law."
                 if measured < expected
                 else f" Sizes of {LONG} and more are {show(measured / expected, 'g2')} times as "
                 "common as in the law."
             )
-        return said
+        return sentence
 
     return FigureBlock(
         id="figure-law",

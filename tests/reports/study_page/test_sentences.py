@@ -9,7 +9,7 @@ from tiny_runs import DESIGN
 from reports.page.evidence import Evidence
 from reports.page.views import View
 from reports.study_page.gather import gather
-from reports.study_page.sections import agreement, found, regions, regressions, statistics, theory
+from reports.study_page.sections import agreement, regions, regressions, statistics, summary, theory
 from reports.study_page.sections.randomness import randomness
 from reports.text.numbers import show
 from study.analysis.bound_tests import BOUNDS
@@ -39,23 +39,23 @@ def prose(section: object, block_of: int = 0, part_of: int = 0) -> str:
 
 
 def test_bounds_and_premise(evidence: Evidence) -> None:
-    said = prose(found.section(evidence), block_of=1)
+    said = prose(summary.section(evidence), block_of=1)
     assert "Theorem 2's bounds hold in every triangulation, and so does what it supposes" in said
     broken = altered(evidence, "theorem_2", bounds="no")
-    assert "Theorem 2's bounds fail" in prose(found.section(broken), block_of=1)
+    assert "Theorem 2's bounds fail" in prose(summary.section(broken), block_of=1)
     unfounded = altered(evidence, "theorem_2", premise="no")
-    assert "although what it supposes" in prose(found.section(unfounded), block_of=1)
+    assert "although what it supposes" in prose(summary.section(unfounded), block_of=1)
     assert "fails in every group" in prose(theory.section(unfounded))
 
 
 def test_growth(evidence: Evidence) -> None:
     grown = altered(evidence, "anova", p=1e-9)
-    assert "The mean grows with the number of points" in prose(found.section(grown), block_of=1)
+    assert "The mean grows with the number of points" in prose(summary.section(grown), block_of=1)
     level = altered(evidence, "anova", p=0.5)
-    assert "does not depend on the number of points" in prose(found.section(level), block_of=1)
+    assert "does not depend on the number of points" in prose(summary.section(level), block_of=1)
     means = evidence.tables["table_4"].frame["mean_lepp"]
     falling = altered(grown, "table_4", mean_lepp=-means)
-    assert "The mean falls with the number of points" in prose(found.section(falling), block_of=1)
+    assert "The mean falls with the number of points" in prose(summary.section(falling), block_of=1)
 
 
 def test_theorem_1_is_praised_only_where_it_is_right(evidence: Evidence) -> None:
@@ -84,7 +84,7 @@ def test_chance_is_not_blamed_for_too_many_rejections(evidence: Evidence) -> Non
 
 
 def test_numbers_in_tiles_are_those_of_the_tables(evidence: Evidence) -> None:
-    tiles = found.section(evidence).parts[0].blocks[0].tiles[VIEW.key]  # type: ignore[union-attr]
+    tiles = summary.section(evidence).parts[0].blocks[0].tiles[VIEW.key]  # type: ignore[union-attr]
     rows = evidence.rows(GROUPS, VIEW)
     assert tiles[0].value == f"{rows['mean_lepp'].iloc[-1]:.4f}"
     histograms = evidence.rows(LAW, VIEW)
@@ -102,11 +102,11 @@ def test_premise_is_judged_at_all_sizes(evidence: Evidence) -> None:
     frame = evidence.tables["theorem_2"].frame
     smallest = frame["n_points"] == DESIGN.sizes[0]
     failing = altered(evidence, "theorem_2", premise=smallest.map({True: "no", False: "yes"}))
-    said = prose(found.section(failing), block_of=1)
+    said = prose(summary.section(failing), block_of=1)
     assert f"does not at 1 of {len(DESIGN.sizes)} numbers of points" in said
     assert f"fails in 1 of {len(DESIGN.sizes)} groups" in prose(theory.section(failing))
     unsure = altered(evidence, "theorem_2", premise=smallest.map({True: "undecided", False: "yes"}))
-    assert "while it stays open" in prose(found.section(unsure), block_of=1)
+    assert "while it stays open" in prose(summary.section(unsure), block_of=1)
     groups = len(DESIGN.sizes)
     assert f"is clear in {groups - 1} of {groups} groups" in prose(theory.section(unsure))
 
@@ -115,7 +115,7 @@ def test_theorem_1_is_within_a_per_cent_only_if_it_is(evidence: Evidence) -> Non
     praise = "gives the mean and the standard deviation within one per cent"
     for off, praised in ((0.0099, True), (0.0101, False), (-9.0, False)):
         changed = altered(evidence, "theorem_1", relative_difference=off)
-        assert (praise in prose(found.section(changed), block_of=1)) == praised
+        assert (praise in prose(summary.section(changed), block_of=1)) == praised
 
 
 def test_a_trend_ends_where_rates_are_rough(evidence: Evidence) -> None:
@@ -166,7 +166,7 @@ def test_the_best_model_has_the_lowest_aic(evidence: Evidence) -> None:
     rows = evidence.rows(REGRESSIONS, VIEW, fitting="least squares").frame.dropna(subset="aic")
     lowest = rows.loc[rows["aic"].idxmin(), "model"]
     assert f"the {lowest} model describes it best by AIC" in prose(
-        found.section(altered(evidence, "anova", p=1e-9)), block_of=1
+        summary.section(altered(evidence, "anova", p=1e-9)), block_of=1
     )
     assert f"The {lowest} model, which has the lowest AIC" in prose(
         regressions.section(evidence), part_of=1

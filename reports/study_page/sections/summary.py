@@ -135,8 +135,8 @@ def _off(relative: float) -> str:
 
 def _sentences(evidence: Evidence, view: View) -> list[str] | None:
     parts = (_spread(evidence, view), _growth(evidence, view), _theory(evidence, view))
-    said = [part for part in parts if part]
-    return said or None
+    sentences = [part for part in parts if part]
+    return sentences or None
 
 
 def _spread(evidence: Evidence, view: View) -> str | None:
@@ -165,14 +165,14 @@ def _growth(evidence: Evidence, view: View) -> str | None:
             f"(Welch's analysis of variance, p\u00a0=\u00a0{show(test['log10_p'], 'log10p')})."
         )
     direction = "grows" if last["mean_lepp"] > first["mean_lepp"] else "falls"
-    said = (
+    sentence = (
         f"The mean {direction} with the number of points, from "
         f"{show(first['mean_lepp'], 'fixed4')} at {first['n_points']:,} to "
         f"{show(last['mean_lepp'], 'fixed4')} at {last['n_points']:,} "
         f"(Welch's analysis of variance, p\u00a0=\u00a0{show(test['log10_p'], 'log10p')})"
     )
     chosen = best(evidence, view)
-    return said + (
+    return sentence + (
         f"; the {chosen['model']} model describes it best by AIC." if chosen is not None else "."
     )
 
