@@ -1,98 +1,84 @@
-// The data block: tables as CSV text, figures as Plotly specifications that refer to them.
+// The data block: tables, cell by cell as files have them and as they are shown, and figures as
+// Plotly specifications that refer to them.
+
 /** @typedef {string | number | null} Cell */
 
 /**
+ * A column of a table: its cells as the CSV file has them, and as they are shown where that differs.
  * @typedef {object} Column
  * @property {string} name
+ * @property {string} header of the CSV file
  * @property {string} label
  * @property {string} [unit]
- * @property {string} format
+ * @property {boolean} [number]
+ * @property {boolean} [verdict]
+ * @property {Record<string, string>} [senses] of verdicts: "good" or "bad"
+ * @property {string[]} raw
+ * @property {string[]} [shown]
  */
 
-/**
- * A table as the data block has it.
- * @typedef {object} TableSpec
- * @property {string} title
- * @property {string} note
- * @property {Column[]} columns
- * @property {string} csv
- */
+/** @typedef {{ title: string, note: string, columns: Column[] }} TableSpec */
 
 /**
  * A figure of each view, by the view's name; "*" is for all.
  * @typedef {Record<string, object>} FigureSpecs
  */
 
-/** @param {string} text */
-function parseCsv(text) {
-  const rows = [];
-  /** @type {string[]} */
-  let row = [];
-  let cell = "";
-  let quoted = false;
-  for (let k = 0; k < text.length; k++) {
-    const character = text[k];
-    if (quoted) {
-      if (character !== '"') cell += character;
-      else if (text[k + 1] === '"') { cell += '"'; k++; }
-      else quoted = false;
-    } else if (character === '"') quoted = true;
-    else if (character === ",") { row.push(cell); cell = ""; }
-    else if (character === "\n") { row.push(cell); rows.push(row); row = []; cell = ""; }
-    else cell += character;
-  }
-  return rows;
-}
+/** @type {(cell: string) => string} */
+const quoted = (cell) => /[",\r\n]/.test(cell) ? `"${cell.replaceAll('"', '""')}"` : cell;
 
 class Table {
   /**
    * @param {string} name
    * @param {TableSpec} spec
    */
-  constructor(name, { title, note, columns, csv }) {
+  constructor(name, { title, note, columns }) {
     this.name = name;
     this.title = title;
     this.note = note;
     this.columns = columns;
-    this.csv = csv;
-    /** @type {Map<string, number>} */
-    this.index = new Map(columns.map((column, k) => [column.name, k]));
-  }
-
-  /**
-   * Rows of cells: text as it is, numbers as doubles, null for an empty cell.
-   * @type {Cell[][]}
-   */
-  get rows() {
-    const numeric = this.columns.map((column) => column.format !== "text");
-    const read = (/** @type {string} */ cell, /** @type {number} */ k) =>
-      cell === "" ? null : numeric[k] ? Number(cell) : cell;
-    const rows = parseCsv(this.csv).slice(1).map((row) => row.map(read));
-    Object.defineProperty(this, "rows", { value: rows });
-    return rows;
+    this.byName = new Map(columns.map((column) => [column.name, column]));
+    this.length = columns[0].raw.length;
   }
 
   /** @param {string} name */
-  place(name) {
-    const k = this.index.get(name);
-    if (k === undefined) throw new Error(`table ${this.name} has no column ${name}`);
-    return k;
+  has(name) {
+    return this.byName.has(name);
   }
 
-  /** @param {Record<string, unknown>} where */
-  select(where) {
-    const wanted = Object.entries(where).filter(([name]) => this.index.has(name));
-    return this.rows.filter((row) =>
-      wanted.every(([name, value]) => String(row[this.place(name)]) === String(value)));
+  /** @param {string} name */
+  get(name) {
+    const column = this.byName.get(name);
+    if (!column) throw new Error(`table ${this.name} has no column ${name}`);
+    return column;
   }
 
   /**
-   * @param {string} name
-   * @param {Record<string, unknown>} [where]
+   * Places of the rows whose columns have the values asked for.
+   * @param {Record<string, unknown>} where
    */
-  column(name, where = {}) {
-    const k = this.place(name);
-    return this.select(where).map((row) => row[k]);
+  select(where = {}) {
+    const wanted = Object.entries(where)
+      .map(([name, value]) => ({ raw: this.get(name).raw, text: String(value) }));
+    return [...Array(this.length).keys()].filter((row) =>
+      wanted.every(({ raw, text }) => raw[row] === text));
+  }
+
+  /**
+   * Values of a column: words as they are, numbers as doubles, null for an empty cell.
+   * @param {string} name
+   * @param {number[]} rows
+   * @returns {Cell[]}
+   */
+  values(name, rows) {
+    const { raw, number } = this.get(name);
+    return rows.map((row) => raw[row] === "" ? null : number ? Number(raw[row]) : raw[row]);
+  }
+
+  get csv() {
+    const lines = [this.columns.map((column) => column.header),
+      ...this.select().map((row) => this.columns.map((column) => column.raw[row]))];
+    return lines.map((line) => line.map(quoted).join(",") + "\n").join("");
   }
 }
 
@@ -121,7 +107,8 @@ class ReportData {
     if (node === null || typeof node !== "object") return node;
     if (node.$) {
       const [table, column, where] = node.$;
-      return this.table(table).column(column, where);
+      const rows = this.table(table).select(where);
+      return this.table(table).values(column, rows);
     }
     return Object.fromEntries(Object.entries(node).map(([key, item]) => [key, this.resolve(item)]));
   }

@@ -122,8 +122,9 @@ class Explorer {
    */
   columns(name, view) {
     const table = this.report.table(name);
+    const rows = table.select(view);
     return Object.fromEntries(table.columns.map((column) =>
-      [column.name, table.column(column.name, view)]));
+      [column.name, table.values(column.name, rows)]));
   }
 
   /**

@@ -8,7 +8,6 @@ from statsmodels.stats.multitest import multipletests
 from statsmodels.stats.oneway import anova_oneway
 
 from study.analysis import analyse
-from study.statistics.multiple_testing import holm
 
 
 def values_of(results, method, distribution):
@@ -42,12 +41,6 @@ def test_shapiro_of_three_values_has_a_closed_form():
         assert row.w == pytest.approx(w)
         p = 6 / np.pi * (np.arcsin(np.sqrt(w)) - np.arcsin(np.sqrt(0.75)))
         assert row.p == pytest.approx(p, abs=1e-12)
-
-
-def test_holm_is_statsmodels():
-    p = np.random.default_rng(5).random(30) ** 3
-    np.testing.assert_allclose(holm(p), multipletests(p, method="holm")[1], rtol=1e-14)
-    assert holm(np.array([])).tolist() == []
 
 
 def test_holm_corrects_within_method_and_distribution(study):

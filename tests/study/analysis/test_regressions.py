@@ -7,9 +7,9 @@ from scipy import optimize, stats
 from statsmodels.regression.linear_model import OLS, WLS
 
 from study.analysis import analyse
-from study.analysis.measurements import Groups
 from study.paper import published
 from study.statistics.fitting import Observations, fit_saturating
+from study.statistics.groups import Groups
 from study.statistics.models import SATURATING
 
 

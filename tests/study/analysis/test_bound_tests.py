@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from scipy import stats
-from test_assumptions import values_of
+from test_group_assumptions import values_of
 
 
 def test_t_tests_are_scipys(study):

@@ -1,11 +1,11 @@
-"""Games-Howell pairs against scipy's."""
+"""Games-Howell comparisons against scipy's."""
 
 import numpy as np
 import pytest
 from scipy import stats
 
-from study.analysis.games_howell import games_howell
-from study.analysis.measurements import Groups
+from study.statistics.games_howell import games_howell
+from study.statistics.groups import Groups
 
 
 @pytest.fixture(scope="module")
@@ -30,17 +30,3 @@ def test_two_groups_are_welchs_t_test(three):
     groups = Groups(np.array([1, 2]), three[:2])
     _, _, p = games_howell(groups, np.array([0]), np.array([1]))
     assert p[0] == pytest.approx(stats.ttest_ind(*three[:2], equal_var=False).pvalue, abs=1e-8)
-
-
-def test_every_pair_is_in_the_table(study):
-    frame = study[2]["pairs"].frame
-    sizes = study[0].sizes
-    assert len(frame) == 4 * len(sizes) * (len(sizes) - 1) // 2
-    assert (frame["n_points_1"] < frame["n_points_2"]).all()
-    excludes_zero = (frame["low"] > 0) | (frame["high"] < 0)
-    assert (excludes_zero == (frame["different"] == "yes")).all()
-    means = study[2]["groups"].frame.set_index(["method", "distribution", "n_points"])["mean_lepp"]
-    for row in frame.itertuples():
-        gap = means[row.method, row.distribution, row.n_points_2]
-        gap -= means[row.method, row.distribution, row.n_points_1]
-        assert row.difference == pytest.approx(gap)

@@ -6,9 +6,7 @@ import pytest
 from scipy import stats
 from statsmodels.formula.api import ols
 from statsmodels.stats.anova import anova_lm
-from test_assumptions import values_of
-
-from study.analysis.variance import population_share
+from test_group_assumptions import values_of
 
 
 def rows(study, test):
@@ -65,22 +63,6 @@ def test_kruskal_by_its_formula(study):
         assert row.p == pytest.approx(stats.chi2.sf(h, 3))
         assert 10**row.log10_p == pytest.approx(row.p)
         assert row.effect_size == pytest.approx(h * (n + 1) / (n**2 - 1))
-
-
-@pytest.mark.parametrize("f", [1.5, 33.34, 3000.0, 1e6])
-def test_interval_inverts_the_noncentral_f_distribution(f):
-    df1, df2, total = 19, 780, 800
-    low, high = population_share(f, df1, df2, total)
-    for share, level in ((low, 0.975), (high, 0.025)):
-        if share > 0:
-            noncentrality = share * total / (1 - share)
-            assert stats.ncf.cdf(f, df1, df2, noncentrality) == pytest.approx(level, rel=1e-6)
-    assert low < f * df1 / (f * df1 + df2)
-    assert low < high
-
-
-def test_no_effect_has_an_interval_from_zero():
-    assert population_share(0.5, 19, 780, 800)[0] == 0
 
 
 def test_the_published_anova_follows_from_the_published_means(paper_study):
