@@ -239,8 +239,8 @@ def test_regions(name):
     within = share.cumsum()
     assert page(name).finding("figure-regions") == (
         f"The commonest region has {share.idxmax()} triangles ({100 * share.max():.1f} % of the "
-        f"regions); nine in ten have at most {within.index[within >= 0.9][0]}; the largest has "
-        f"{counts.index.max():,}."
+        f"regions); nine in ten have at most {within.index[within >= 0.9][0]}; the largest, of "
+        f"all numbers of points, has {counts.index.max():,}."
     )
 
 
