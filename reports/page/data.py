@@ -25,18 +25,14 @@ def figure_data(node: object) -> object:
     """Make JSON values of a figure's specification, with references for columns of tables."""
     if isinstance(node, ColumnReference):
         if len(node) > _SHORT:
-            return {"$": [node.table, node.column, plain_mapping(node.where)]}
+            where = {name: plain_value(value) for name, value in node.where.items()}
+            return {"$": [node.table, node.column, where]}
         return plain(node)
     if isinstance(node, dict):
         return {key: figure_data(value) for key, value in node.items()}
     if isinstance(node, np.ndarray | pd.Series | list | tuple):
         return [figure_data(item) for item in node]
     return plain_value(node)
-
-
-def plain_mapping(values: object) -> dict:
-    """Make JSON values of a mapping's."""
-    return {key: plain_value(value) for key, value in dict(values).items()}  # type: ignore[call-overload]  # any mapping
 
 
 def plain(values: Iterable[object]) -> list:

@@ -154,7 +154,8 @@ def rows_by_population(
             for method, distribution in study.data.populations:
                 population = Population(study, method, distribution, what)
                 try:
-                    made_rows.extend(population.key | row for row in rows(population))
+                    for row in rows(population):
+                        made_rows.append(population.key | row)
                 except NotEnough as lack:
                     population.lacks(str(lack))
             yield made.table(made_rows, **(note(study.data) if note else {}))
@@ -183,14 +184,9 @@ def build(builders: Iterable[Builder], data: Measurements) -> tuple[Tables, list
         If tables need one another.
     """
     builders = list(builders)
-    maker = {made.name: place for place, one in enumerate(builders) for made in one.makes}
-    for need in (need for one in builders for need in one.needs):
-        if need.name not in maker:
-            raise UnknownNameError(f"no builder makes the table {need.name!r}")
-    after = {place: {maker[need.name] for need in one.needs} for place, one in enumerate(builders)}
     tables = Tables()
     missing: dict[int, list[Missing]] = {}
-    for place in TopologicalSorter(after).static_order():
+    for place in _in_order_of_needs(builders):
         one = builders[place]
         study = Study(data, tables.only(one.needs))
         made = list(one.make(study))
@@ -198,8 +194,14 @@ def build(builders: Iterable[Builder], data: Measurements) -> tuple[Tables, list
             raise ValueError(f"a builder of {[d.name for d in one.makes]} made others")
         tables = tables.adding(*made)
         missing[place] = study.missing
-    ordered = [made.name for one in builders for made in one.makes]
-    return (
-        Tables(tables[name] for name in ordered),
-        [lack for place in sorted(missing) for lack in missing[place]],
-    )
+    ordered = tables.only(made for one in builders for made in one.makes)
+    return ordered, [lack for place in sorted(missing) for lack in missing[place]]
+
+
+def _in_order_of_needs(builders: list[Builder]) -> Iterable[int]:
+    maker = {made.name: place for place, one in enumerate(builders) for made in one.makes}
+    for need in (need for one in builders for need in one.needs):
+        if need.name not in maker:
+            raise UnknownNameError(f"no builder makes the table {need.name!r}")
+    needed = {place: {maker[need.name] for need in one.needs} for place, one in enumerate(builders)}
+    return TopologicalSorter(needed).static_order()

@@ -125,7 +125,7 @@ def test_a_trend_ends_where_rates_are_rough(evidence: Evidence) -> None:
         "termination",
         rate=(0.4 + 0.02 * size).where(size < 6, 0.1),
         low=0.4,
-        high=(0.4 + 0.0 * size).where(size < 5, 0.46),
+        high=(0.4 + 0.0 * size).where(size != 5, 0.46),  # rough at 5 alone
     )
     said = said_of(theory.section(rising), "figure-termination")
     assert "rises with every step up to size 4, while Theorem 1" in said

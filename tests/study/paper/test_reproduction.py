@@ -73,7 +73,8 @@ def test_other_sizes_are_not_compared(study):
 
 
 @pytest.mark.parametrize(
-    ("z", "verdict"), [(0, "agrees"), (-1.99, "agrees"), (2.5, "close"), (-3.01, "differs")]
+    ("z", "verdict"),
+    [(0, "agrees"), (-1.99, "agrees"), (2.01, "close"), (-2.99, "close"), (-3.01, "differs")],
 )
 def test_verdicts_by_standard_errors(z, verdict):
     assert judging.within(z) == verdict
@@ -112,6 +113,57 @@ def test_f_statistics_are_judged_as_their_spread_is():
     z = [
         judging.of_f(a, published.Number(5, "F", b, 12), 7, 152).difference
         for a, b in zip(ours, theirs, strict=True)
+    ]
+    assert np.mean(z) == pytest.approx(0, abs=0.15)
+    assert np.std(z) == pytest.approx(1, abs=0.1)
+
+
+X = np.repeat(np.arange(1.0, 21), 10) - 10.5
+DF = len(X) - 2
+
+
+def regressions(rng, count):
+    """Slope, its standard error, F and adjusted R squared of fits to the same x."""
+    y = 0.1 * X + rng.normal(size=(count, len(X)))
+    slope = y @ X / (X @ X)
+    residual = ((y - y.mean(axis=1, keepdims=True) - slope[:, None] * X) ** 2).sum(axis=1) / DF
+    total = y.var(axis=1, ddof=1)
+    return zip(
+        slope, np.sqrt(residual / (X @ X)), slope**2 * (X @ X) / residual, 1 - residual / total,
+        strict=True,
+    )  # fmt: skip
+
+
+def number(value):
+    return published.Number(7, "of a regression", value, 12, scientific=True)
+
+
+@pytest.mark.parametrize("judged", ["coefficient", "adjusted R squared", "p"])
+def test_regressions_are_judged_as_their_spread_is(judged):
+    rng = np.random.default_rng(2)
+    z = []
+    for ours, theirs in zip(regressions(rng, 1000), regressions(rng, 1000), strict=True):
+        (a, error, f, r2), (published_a, _, published_f, published_r2) = ours, theirs
+        if judged == "coefficient":
+            judgement = judging.of_coefficient(a, error, number(published_a))
+        elif judged == "p":
+            p, published_p = stats.f.sf([f, published_f], 1, DF)
+            judgement = judging.of_regression_p(p, np.log10(p), f, number(published_p), 1, DF)
+        else:
+            judgement = judging.of_adjusted_r2(r2, f, number(published_r2), 1, DF)
+        z.append(judgement.difference)
+    assert np.mean(z) == pytest.approx(0, abs=0.15)
+    assert np.std(z) == pytest.approx(1, abs=0.1)
+
+
+def test_t_tests_are_judged_as_their_spread_is():
+    rng = np.random.default_rng(3)
+    draws = rng.normal(3, 0.1, (2, 1000, 40))
+    t = (draws.mean(axis=2) - 4) / draws.std(axis=2, ddof=1) * np.sqrt(40)
+    p = stats.t.cdf(t, 39)
+    z = [
+        judging.of_t_test(p1, np.log10(p1), t1, 40, number(p2), 40).difference
+        for p1, p2, t1 in zip(p[0], p[1], t[0], strict=True)
     ]
     assert np.mean(z) == pytest.approx(0, abs=0.15)
     assert np.std(z) == pytest.approx(1, abs=0.1)
