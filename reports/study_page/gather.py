@@ -19,13 +19,18 @@ def gather(directory: Path) -> Evidence:
     """
     loaded = store.load(directory)
     design = loaded.design
-    tables = dict(analyse(loaded.results, loaded.histograms, loaded.regions, design))
+    tables = dict(
+        analyse(
+            loaded["results"], loaded["histograms"], loaded["regions"], loaded["point_sets"], design
+        )
+    )
     evidence = Evidence(tables, design, loaded.manifest)
     for table in (
         own.table_4(tables["groups"], tables["reproduction"]),
         own.statements_compared(tables["statements"], design.methods),
-        own.triangulations(loaded.results),
-        own.failures(loaded.results),
+        own.triangulations(loaded["results"]),
+        own.point_sets(loaded["point_sets"]),
+        own.failures(loaded["results"]),
         own.sampled_points(design),
         *explorer_tables(design, evidence.views),
     ):

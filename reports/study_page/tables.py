@@ -6,23 +6,33 @@ from reports.page.views import METHOD_NAMES
 from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Table
 from study.design.design import Design
 from study.design.sampling import sample_points
+from study.run.measures import columns_of
+from study.run.point_checks import PointChecks
+from study.run.triangulations import Measures
 
 SCATTER_POINTS = 400
+
+_REPLICATE = Column("replicate", "Repetition", "", "int")
+
+
+def _described(measures: type, *names: str) -> tuple[Column, ...]:
+    """Return measures as columns: those named, or all."""
+    columns = columns_of(measures)
+    return tuple(
+        Column(column.name, column.label, column.unit, column.format)
+        for column in columns
+        if column.name in names or not names
+    )
+
 
 _TRIANGULATIONS = (
     METHOD,
     DISTRIBUTION,
     N_POINTS,
-    Column("replicate", "Repetition", "", "int"),
-    Column("n_triangles", "Triangles", "triangles", "int"),
-    Column("mean_lepp", "Mean LEPP", "triangles", "fixed4"),
-    Column("sd_lepp", "SD of LEPP", "triangles", "fixed4"),
-    Column("max_lepp", "Largest LEPP", "triangles", "int"),
-    Column("runs_p_x", "Runs test, p of x", "", "p"),
-    Column("runs_p_y", "Runs test, p of y", "", "p"),
-    Column("ks_p_x", "Kolmogorov-Smirnov, p of x", "", "p"),
-    Column("ks_p_y", "Kolmogorov-Smirnov, p of y", "", "p"),
+    _REPLICATE,
+    *_described(Measures, "n_triangles", "mean_lepp", "sd_lepp", "max_lepp"),
 )
+_POINT_SETS = (DISTRIBUTION, N_POINTS, _REPLICATE, *_described(PointChecks))
 _SAMPLE = (
     DISTRIBUTION,
     N_POINTS,
@@ -49,7 +59,7 @@ _FAILURES = (
     METHOD,
     DISTRIBUTION,
     N_POINTS,
-    Column("replicate", "Repetition", "", "int"),
+    _REPLICATE,
     Column("error", "Error"),
 )
 
@@ -101,6 +111,12 @@ def triangulations(results: pd.DataFrame) -> Table:
     frame = done[[column.name for column in _TRIANGULATIONS]].reset_index(drop=True)
     note = "One row a triangulation. results.parquet beside this page has more columns of each."
     return Table("triangulations", "Triangulations", frame, _TRIANGULATIONS, note)
+
+
+def point_sets(checks: pd.DataFrame) -> Table:
+    """Every point set with the p-values of its checks, a row each."""
+    note = "One row a point set: every method triangulates the same points."
+    return Table("point_sets", "Checks of the point sets", checks, _POINT_SETS, note)
 
 
 def failures(results: pd.DataFrame) -> Table:

@@ -52,18 +52,24 @@ _MISSING = (METHOD, DISTRIBUTION, Column("what", "Not computed"), Column("why", 
 
 
 def analyse(
-    results: pd.DataFrame, histograms: pd.DataFrame, regions: pd.DataFrame, design: "Design"
+    results: pd.DataFrame,
+    histograms: pd.DataFrame,
+    regions: pd.DataFrame,
+    point_sets: pd.DataFrame,
+    design: "Design",
 ) -> dict[str, Table]:
     """Compute every table of a study.
 
     Parameters
     ----------
     results : pandas.DataFrame
-        A row a task; measured columns are null and `error` is not where the task failed.
+        A row a triangulation; measured columns are null and `error` is not where it failed.
     histograms : pandas.DataFrame
         Counts of LEPP sizes: method, distribution, n_points, replicate, lepp_size, count.
     regions : pandas.DataFrame
         Counts of terminal-edge region sizes, with `region_size` in place of `lepp_size`.
+    point_sets : pandas.DataFrame
+        A row a point set, with the p-values of its checks.
     design : Design
         What was asked for.
 
@@ -73,7 +79,7 @@ def analyse(
         By name. A table that the results do not suffice for has the rows that can be had; the
         table ``missing`` says what cannot, and why. The same results give the same tables.
     """
-    data = Measurements.of(results, histograms, regions, design)
+    data = Measurements.of(results, histograms, regions, point_sets, design)
     missing: list[Missing] = []
     tables: dict[str, Table] = {}
 

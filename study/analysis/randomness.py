@@ -3,7 +3,6 @@
 from itertools import product
 
 import numpy as np
-import pandas as pd
 from scipy import stats
 
 from study.analysis.measurements import CONFIDENCE, SIGNIFICANCE, Measurements, Missing, Row
@@ -42,11 +41,6 @@ _UNIFORMITY = (
     Column("count", "Tests", "tests", "int"),
     Column("expected", "Expected", "tests", "fixed1"),
 )
-
-
-def point_sets(data: Measurements) -> pd.DataFrame:
-    """Keep a row a point set: all methods triangulate the same points, tested once."""
-    return data.results.drop_duplicates(["distribution", "n_points", "replicate"])
 
 
 def randomness(data: Measurements) -> tuple[Table, list[Missing]]:
@@ -103,7 +97,7 @@ def _families(
     data: Measurements,
 ) -> tuple[list[tuple[str, str, str, np.ndarray]], list[Missing]]:
     families, missing = [], []
-    sets = point_sets(data)
+    sets = data.point_sets
     for distribution, (test, prefix), coordinate in product(
         data.design.distributions, TESTS.items(), COORDINATES
     ):

@@ -10,6 +10,8 @@ from typing import Any
 REPETITIONS = 40
 #: The distribution of which the paper shows all tables; Table 6 has all four.
 SHOWN = "uniform"
+#: The method of triangulation that they are of, of `lepp.METHODS`.
+REFERENCE_METHOD = "incremental"
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import pandas as pd
 from scipy import stats
 
 from study.analysis.measurements import SIGNIFICANCE, Measurements, Missing, Row
-from study.analysis.randomness import TESTS, point_sets
+from study.analysis.randomness import TESTS
 from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Table
 from study.paper import judging, published
 from study.paper.judging import NOT_COMPARABLE, NOT_RUN, Judgement
@@ -189,7 +189,7 @@ def _judge(ours: _Ours) -> Judged:
 
 
 def _table_1(ours: _Ours) -> Judged:
-    sets = point_sets(ours.data)
+    sets = ours.data.point_sets
     sets = sets[sets["distribution"] == SHOWN]
     numbers = published.table_1()
     columns = [f"{prefix}_{coordinate}" for prefix in TESTS.values() for coordinate in "xy"]
