@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 if TYPE_CHECKING:
-    from study.design.design import Design
+    from study.run.kinds import Kind
     from study.run.runner import Listener, Summary
 
 EXIT_BAD_INPUT = 2
@@ -95,11 +95,11 @@ def run(
     3 if tasks failed, and 130 after Ctrl-C.
     """
     start = perf_counter()
-    design, directory = _choose(directory, preset, config, seed)
+    kind, design, directory = _choose(directory, preset, config, seed)
     from reports.cli.progress import progress
 
     with progress() as listener:
-        summary = _run(directory, design, workers, scheduler, listener)
+        summary = _run(directory, kind, design, workers, scheduler, listener)
     computed = perf_counter()
     path = _write_report(directory)
     _print_summary(summary, computed - start, perf_counter() - computed)
@@ -154,29 +154,33 @@ def bench(points: int, repeats: int) -> None:
 
 def _choose(
     directory: Path | None, preset: str | None, config: Path | None, seed: int | None
-) -> tuple[Design, Path]:
-    """Find the design that the options mean, and the directory for its results."""
+) -> tuple[Kind, Any, Path]:
+    """Find the kind and the design that the options mean, and the directory for the results."""
     from lepp import InputError
     from study.design.design import Design
     from study.results.store import design_of
+    from study.run.triangulations import TRIANGULATIONS
 
+    kind: Kind = TRIANGULATIONS
+    design: Any
     if preset is not None and config is not None:
         raise InputError("Give --preset or --config, not both: each is a whole design.")
     if config is not None:
         design, name = Design.from_toml(config), config.stem
     elif preset is None and directory is not None and (found := design_of(directory)) is not None:
-        design, name = found, directory.name
+        (kind, design), name = found, directory.name
     else:
         name = preset or "paper"
         design = Design.from_preset(name)
     if seed is not None:
         design = design.with_seed(seed)
-    return design, directory or Path("results") / name
+    return kind, design, directory or Path("results") / name
 
 
 def _run(
     directory: Path,
-    design: Design,
+    kind: Kind,
+    design: Any,  # noqa: ANN401 - of the kind's own type
     workers: int | None,
     scheduler: str | None,
     listener: Listener,
@@ -185,7 +189,7 @@ def _run(
 
     try:
         return run_design(
-            directory, design, workers=workers, scheduler=scheduler, listener=listener
+            directory, kind, design, workers=workers, scheduler=scheduler, listener=listener
         )
     except KeyboardInterrupt:
         click.echo(
@@ -203,14 +207,13 @@ def _write_report(directory: Path) -> Path:
 
 
 def _print_summary(summary: Summary, run_seconds: float, report_seconds: float) -> None:
-    if summary.n_computed:
-        ideal = summary.kernel_seconds / summary.n_threads
+    parts, work = summary.units
+    if summary.computed.parts:
         total = run_seconds + report_seconds
         click.echo(
-            f"{summary.n_computed:,} triangulations, {summary.n_points:,} points, in "
-            f"{total:.1f} s ({report_seconds:.1f} s of it the report). The tasks' own time is "
-            f"{summary.kernel_seconds:.1f} s, {ideal:.1f} s on each of {summary.n_threads} "
-            f"workers: the whole took {total / ideal:.2f} times that."
+            f"{summary.computed.parts:,} {parts}, {summary.computed.work:,} {work}, in "
+            f"{total:.1f} s ({report_seconds:.1f} s of it the report)."
+            + _efficiency(summary, total)
         )
     else:
         click.echo("Everything was computed already.")
@@ -220,6 +223,17 @@ def _print_summary(summary: Summary, run_seconds: float, report_seconds: float) 
             click.echo(f"  {' '.join(map(str, outcome.task))}: {outcome.error}")
         if len(summary.failures) > 5:
             click.echo(f"  and {len(summary.failures) - 5:,} more (column error of the results)")
+
+
+def _efficiency(summary: Summary, total: float) -> str:
+    """Compare the seconds of a run with its tasks' own, where there were some."""
+    if not (summary.kernel_seconds and summary.n_threads):
+        return ""
+    ideal = summary.kernel_seconds / summary.n_threads
+    return (
+        f" The tasks' own time is {summary.kernel_seconds:.1f} s, {ideal:.1f} s on each of "
+        f"{summary.n_threads} workers: the whole took {total / ideal:.2f} times that."
+    )
 
 
 @main.command()

@@ -1,6 +1,6 @@
 """The progress of a run: a bar on a terminal, a line now and then elsewhere."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import timedelta
 from time import monotonic
@@ -17,7 +17,7 @@ from rich.progress import (
 from rich.progress import Task as Bar
 from rich.text import Text
 
-from study.run.experiment import Outcome, Task
+from study.run.kinds import Outcome, Size
 from study.run.runner import Listener
 
 _LINE_SHARE = 0.1
@@ -29,15 +29,15 @@ def _load_report() -> None:
     import reports.study_page.page  # noqa: F401 - only to have it loaded
 
 
-def _plan(unfinished: Sequence[Task], n_tasks: int) -> str:
-    points = sum(task.n_points for task in unfinished)
-    there = n_tasks - len(unfinished)
-    goes_on = f", {there:,} of {n_tasks:,} are there" if there else ""
-    return f"{len(unfinished):,} triangulations to compute, {points:,} points{goes_on}"
+def _plan(units: tuple[str, str], unfinished: Size, whole: Size) -> str:
+    parts, work = units
+    there = whole.parts - unfinished.parts
+    goes_on = f", {there:,} of {whole.parts:,} are there" if there else ""
+    return f"{unfinished.parts:,} {parts} to compute, {unfinished.work:,} {work}{goes_on}"
 
 
 class _Rate(ProgressColumn):
-    """Points per second since the start, and the time that the rest takes at this rate.
+    """Work per second since the start, and the time that the rest takes at this rate.
 
     Tasks arrive many at a time: the rate between arrivals, which rich would show, means nothing.
     """
@@ -47,7 +47,7 @@ class _Rate(ProgressColumn):
             return Text("")
         rate = task.completed / (task.finished_time or task.elapsed)
         left = timedelta(seconds=round((task.remaining or 0) / rate))
-        return Text(f"{rate / 1e6:.2f} million points/s, {left} left")
+        return Text(f"{rate / 1e6:.2f} million {task.fields['work']}/s, {left} left")
 
 
 class TerminalProgress:
@@ -57,17 +57,16 @@ class TerminalProgress:
         self._bars = bars
         self._bar: TaskID | None = None
 
-    def begin(self, unfinished: Sequence[Task], n_tasks: int) -> None:
+    def begin(self, units: tuple[str, str], unfinished: Size, whole: Size) -> None:
         """Start the bar."""
-        self._bars.console.print(_plan(unfinished, n_tasks), highlight=False)
-        total = sum(task.n_points for task in unfinished)
-        self._bar = self._bars.add_task("Computing", total=total)
+        self._bars.console.print(_plan(units, unfinished, whole), highlight=False)
+        self._bar = self._bars.add_task("Computing", total=unfinished.work, work=units[1])
         _load_report()
 
-    def advance(self, outcome: Outcome) -> None:
-        """Move the bar by the points of a task."""
+    def advance(self, outcome: Outcome, size: Size) -> None:
+        """Move the bar by the work of a task."""
         assert self._bar is not None, "begin comes first"
-        self._bars.advance(self._bar, outcome.task.n_points)
+        self._bars.advance(self._bar, size.work)
 
     def note(self, sentence: str) -> None:
         """Print a sentence above the bar."""
@@ -75,26 +74,26 @@ class TerminalProgress:
 
 
 class PlainProgress:
-    """A line at the start, then one for every tenth of the points and at least every 30 s."""
+    """A line at the start, then one for every tenth of the work and at least every 30 s."""
 
-    def begin(self, unfinished: Sequence[Task], n_tasks: int) -> None:
+    def begin(self, units: tuple[str, str], unfinished: Size, whole: Size) -> None:
         """Print the first line."""
-        self._total = sum(task.n_points for task in unfinished)
+        self._total, self._work = unfinished.work, units[1]
         self._done = self._printed = 0
         self._start = self._last = monotonic()
-        click.echo(_plan(unfinished, n_tasks))
+        click.echo(_plan(units, unfinished, whole))
         _load_report()
 
-    def advance(self, outcome: Outcome) -> None:
-        """Count the points of a task; print a line if it is time."""
-        self._done += outcome.task.n_points
+    def advance(self, outcome: Outcome, size: Size) -> None:
+        """Count the work of a task; print a line if it is time."""
+        self._done += size.work
         now = monotonic()
         share = (self._done - self._printed) / self._total
         if self._done < self._total and (share >= _LINE_SHARE or now - self._last >= _LINE_SECONDS):
             self._printed, self._last = self._done, now
             rate = self._done / max(now - self._start, 1e-9)
             click.echo(
-                f"{self._done / self._total:.0%}, {rate / 1e6:.2f} million points/s, "
+                f"{self._done / self._total:.0%}, {rate / 1e6:.2f} million {self._work}/s, "
                 f"{(self._total - self._done) / rate:.0f} s left"
             )
 

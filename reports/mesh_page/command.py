@@ -7,10 +7,10 @@ from pathlib import Path
 import lepp
 from reports.mesh_page.page import render
 from reports.mesh_page.terminal import in_options, print_survey
-from reports.study_page.page import write_whole
 from study.meshes.read import ReadOptions, read_mesh
 from study.meshes.survey import Survey, as_json, survey
 from study.meshes.write import check_not_same, check_output, write_mesh
+from study.results.files import write_text
 
 _STANDARD_OUTPUT = Path("-")
 
@@ -51,13 +51,13 @@ def answer(
         raise in_options(error) from None
     written = []
     if json_file not in (None, _STANDARD_OUTPUT):
-        _write(json_file, _json_text(found))
+        write_text(json_file, _json_text(found))
         written.append(f"JSON: {json_file}")
     if output is not None:
         write_mesh(found, output)
         written.append(f"Mesh: {output}")
     if html is not None:
-        _write(html, render(found))
+        write_text(html, render(found))
         written.append(f"Page: {html}")
     if json_file == _STANDARD_OUTPUT:  # last: a reader of a pipe may go away
         sys.stdout.write(_json_text(found))
@@ -82,10 +82,3 @@ def _check_outputs(
 
 def _json_text(found: Survey) -> str:
     return json.dumps(as_json(found), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-
-
-def _write(path: Path, text: str) -> None:
-    try:
-        write_whole(path, text)
-    except OSError as error:
-        raise lepp.InputError(f"{path} cannot be written: {error.strerror}.") from None

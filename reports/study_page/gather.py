@@ -23,10 +23,12 @@ def gather(directory: Path) -> Evidence:
 def evidence_of(loaded: store.Results) -> Evidence:
     """Analyse results, and add the report's own tables."""
     design = loaded.design
-    tables = analyse(loaded.results, loaded.histograms, loaded.regions, design)
+    tables = analyse(
+        loaded["results"], loaded["histograms"], loaded["regions"], loaded["point_sets"], design
+    )
     evidence = Evidence(tables, design, loaded.manifest)
     added = (
-        *report_tables(tables, loaded.results, design),
+        *report_tables(tables, loaded["results"], loaded["point_sets"], design),
         *explorer_tables(design, evidence.views),
     )
     return Evidence(tables.adding(*added), design, loaded.manifest)

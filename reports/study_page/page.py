@@ -1,12 +1,12 @@
 """The report: one HTML file that holds everything it needs, and the tables beside it as CSV."""
 
 import importlib.util
-import os
-import tempfile
+import json
+import re
 from functools import cache
 from pathlib import Path
 
-from lepp import METHODS
+from lepp import METHODS, InputError
 from reports.page.assets import environment, static
 from reports.page.blocks import FigureBlock, Section
 from reports.page.data import compress, encode, figure_data, table_data
@@ -15,6 +15,10 @@ from reports.page.views import distribution_name
 from reports.study_page import sections
 from reports.study_page.gather import gather
 from study.analysis.table import DISTRIBUTION, METHOD, Column, Tables
+from study.results.files import write_text
+
+#: In the folder of tables: which files in it reports have written.
+_WRITTEN = ".lepp-study.json"
 
 
 def write_report(directory: Path) -> Path:
@@ -38,7 +42,7 @@ def write_report(directory: Path) -> Path:
     evidence = gather(directory)
     write_tables(directory / "tables", evidence.tables)
     report = directory / "report.html"
-    write_whole(report, render(evidence))
+    write_text(report, render(evidence))
     return report
 
 
@@ -78,26 +82,35 @@ def page_data(evidence: Evidence, parts: list[Section]) -> dict:
 
 
 def write_tables(folder: Path, tables: Tables) -> None:
-    """Write each table as CSV, and remove those that an earlier report left."""
-    folder.mkdir(exist_ok=True)
-    for name, table in tables.items():
-        write_whole(folder / f"{name}.csv", table.to_csv())
-    for old in sorted(folder.glob("*.csv")):
-        if old.stem not in tables:
-            old.unlink()
+    """Write each table as CSV, and remove those that an earlier report left.
 
-
-def write_whole(path: Path, text: str) -> None:
-    """Write a file so that nobody ever sees half of it."""
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    A file lists what reports have written here: no other file is removed, whatever its name.
+    """
     try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-        os.chmod(name, 0o644)
-        os.replace(name, path)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
+        folder.mkdir(exist_ok=True)
+    except OSError as error:
+        raise InputError(f"Cannot write {folder}: {error.strerror}.") from None
+    written = {f"{name}.csv" for name in tables}
+    before = _listed(folder / _WRITTEN)
+    # First, so that the list holds what is written even if this ends halfway.
+    _list(folder / _WRITTEN, before | written)
+    for name, table in tables.items():
+        write_text(folder / f"{name}.csv", table.to_csv())
+    for old in before - written:
+        (folder / old).unlink(missing_ok=True)
+    _list(folder / _WRITTEN, written)
+
+
+def _listed(path: Path) -> set[str]:
+    try:
+        names = json.loads(path.read_text(encoding="utf-8"))["tables"]
+        return {name for name in names if re.fullmatch(r"\w+\.csv", name)}
+    except (OSError, ValueError, KeyError, TypeError):  # none, or edited: then nothing is removed
+        return set()
+
+
+def _list(path: Path, names: set[str]) -> None:
+    write_text(path, json.dumps({"tables": sorted(names)}, indent=1) + "\n")
 
 
 def _switches(evidence: Evidence) -> list[dict]:

@@ -23,8 +23,23 @@ from study.design.sampling import sample_points
 from study.paper.published import MEAN_LEPP, SD_BETWEEN
 from study.paper.reproduction import REPRODUCTION
 from study.paper.statements import STATEMENTS
+from study.run.measures import columns_of
+from study.run.point_checks import PointChecks
+from study.run.triangulations import Measures
 
 SCATTER_POINTS = 400
+
+_REPLICATE = Column("replicate", "Repetition", "", "int")
+
+
+def _described(measures: type, *names: str) -> tuple[Column, ...]:
+    """Return measures as columns: those named, or all."""
+    return tuple(
+        Column(column.name, column.label, column.unit, column.format)
+        for column in columns_of(measures)
+        if column.name in names or not names
+    )
+
 
 TRIANGULATIONS = Declaration(
     "triangulations",
@@ -33,17 +48,17 @@ TRIANGULATIONS = Declaration(
         METHOD,
         DISTRIBUTION,
         N_POINTS,
-        Column("replicate", "Repetition", "", "int"),
-        Column("n_triangles", "Triangles", "triangles", "int"),
-        Column("mean_lepp", "Mean LEPP", "triangles", "fixed4"),
-        Column("sd_lepp", "SD of LEPP", "triangles", "fixed4"),
-        Column("max_lepp", "Largest LEPP", "triangles", "int"),
-        Column("runs_p_x", "Runs test, p of x", "", "p"),
-        Column("runs_p_y", "Runs test, p of y", "", "p"),
-        Column("ks_p_x", "Kolmogorov-Smirnov, p of x", "", "p"),
-        Column("ks_p_y", "Kolmogorov-Smirnov, p of y", "", "p"),
+        _REPLICATE,
+        *_described(Measures, "n_triangles", "mean_lepp", "sd_lepp", "max_lepp"),
     ),
     note="One row a triangulation. results.parquet beside this page has more columns of each.",
+)
+
+POINT_SETS = Declaration(
+    "point_sets",
+    "Checks of the point sets",
+    (DISTRIBUTION, N_POINTS, _REPLICATE, *_described(PointChecks)),
+    note="One row a point set: every method triangulates the same points.",
 )
 
 SAMPLED_POINTS = Declaration(
@@ -86,7 +101,7 @@ FAILURES = Declaration(
         METHOD,
         DISTRIBUTION,
         N_POINTS,
-        Column("replicate", "Repetition", "", "int"),
+        _REPLICATE,
         Column("error", "Error"),
     ),
     note="A failed task is tried again when the study is run again in the same directory.",
@@ -111,7 +126,9 @@ def statements_compared_by(methods: Sequence[str]) -> Declaration:
     return replace(_STATEMENTS_COMPARED, columns=(*_STATEMENT, *verdicts))
 
 
-def report_tables(tables: Tables, results: pd.DataFrame, design: Design) -> Iterator[Table]:
+def report_tables(
+    tables: Tables, results: pd.DataFrame, point_sets: pd.DataFrame, design: Design
+) -> Iterator[Table]:
     """Make the report's own tables.
 
     Parameters
@@ -119,12 +136,15 @@ def report_tables(tables: Tables, results: pd.DataFrame, design: Design) -> Iter
     tables : Tables
         Those of the analysis.
     results : pandas.DataFrame
-        A row a task.
+        A row a triangulation.
+    point_sets : pandas.DataFrame
+        A row a point set.
     design : Design
     """
     yield table_4(tables)
     yield statements_compared(tables, design.methods)
     yield TRIANGULATIONS.of_frame(_columns_of(results[results["error"].isna()], TRIANGULATIONS))
+    yield POINT_SETS.of_frame(_columns_of(point_sets, POINT_SETS))
     yield FAILURES.of_frame(_columns_of(results[results["error"].notna()], FAILURES))
     yield sampled_points(design)
 

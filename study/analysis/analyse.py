@@ -64,7 +64,11 @@ BUILDERS = (
 
 
 def analyse(
-    results: pd.DataFrame, histograms: pd.DataFrame, regions: pd.DataFrame, design: "Design"
+    results: pd.DataFrame,
+    histograms: pd.DataFrame,
+    regions: pd.DataFrame,
+    point_sets: pd.DataFrame,
+    design: "Design",
 ) -> Tables:
     """Compute every table of a study.
 
@@ -76,6 +80,8 @@ def analyse(
         Counts of LEPP sizes: method, distribution, n_points, replicate, lepp_size, count.
     regions : pandas.DataFrame
         Counts of terminal-edge region sizes, with `region_size` in place of `lepp_size`.
+    point_sets : pandas.DataFrame
+        A row a point set, with the p-values of its checks.
     design : Design
         What was asked for.
 
@@ -85,5 +91,6 @@ def analyse(
         By name. A table that the results do not suffice for has the rows that can be had; the
         table ``missing`` says what cannot, and why. The same results give the same tables.
     """
-    tables, missing = build(BUILDERS, Measurements.of(results, histograms, regions, design))
+    data = Measurements.of(results, histograms, regions, point_sets, design)
+    tables, missing = build(BUILDERS, data)
     return tables.adding(MISSING.table(asdict(entry) for entry in missing))

@@ -8,20 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
+from study.run.measures import columns_of
+from study.run.triangulations import Measures, Task
 from study.statistics.groups import Groups
 
 if TYPE_CHECKING:
     from study.design.design import Design
 
-_KEY = ["method", "distribution", "n_points", "replicate"]
-_WHOLE = [
-    "n_points", "replicate", "n_triangles", "n_hull", "n_repeated", "max_lepp",
-    "n_interior_longest", "n_type_a", "n_type_b", "n_type_c", "n_regions", "max_region",
-]  # fmt: skip
-_REAL = [
-    "mean_lepp", "sd_lepp", "skewness_lepp", "kurtosis_lepp",
-    "runs_p_x", "runs_p_y", "ks_p_x", "ks_p_y",
-]  # fmt: skip
+_KEY = ["method", *Task._fields]
 
 
 @dataclass(frozen=True)
@@ -36,6 +30,8 @@ class Measurements:
         A row for each task that failed.
     histograms, regions : pandas.DataFrame
         Counts of LEPP sizes and of terminal-edge region sizes.
+    point_sets : pandas.DataFrame
+        A row for each point set, with the p-values of its checks.
     design : Design
         Which triangulations were asked for.
     """
@@ -44,6 +40,7 @@ class Measurements:
     failures: pd.DataFrame
     histograms: pd.DataFrame
     regions: pd.DataFrame
+    point_sets: pd.DataFrame
     design: "Design"
 
     @classmethod
@@ -52,16 +49,18 @@ class Measurements:
         results: pd.DataFrame,
         histograms: pd.DataFrame,
         regions: pd.DataFrame,
+        point_sets: pd.DataFrame,
         design: "Design",
     ) -> "Measurements":
         """Part what succeeded from what failed, in the order of the design."""
         failed = results["error"].notna().to_numpy(dtype=bool)
-        types = dict.fromkeys(_WHOLE, "int64") | dict.fromkeys(_REAL, "float64")
+        types = {column.name: column.dtype for column in columns_of(Measures)}
         return cls(
             results=_ordered(results[~failed], design).astype(types),
             failures=_ordered(results[failed], design),
             histograms=_ordered(histograms, design),
             regions=_ordered(regions, design),
+            point_sets=_ordered(point_sets, design),
             design=design,
         )
 
@@ -100,7 +99,8 @@ def _ordered(frame: pd.DataFrame, design: "Design") -> pd.DataFrame:
         return {name: place for place, name in enumerate(names)}
 
     ranks = {"method": rank(design.methods), "distribution": rank(design.distributions)}
-    by = _KEY + [name for name in ("lepp_size", "region_size") if name in frame.columns]
+    keys = (*_KEY, "lepp_size", "region_size")
+    by = [name for name in keys if name in frame.columns]
     return frame.sort_values(
         by,
         key=lambda column: column.map(ranks[column.name]) if column.name in ranks else column,

@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from itertools import product
 
 import numpy as np
-import pandas as pd
 from scipy import stats
 
 from study.analysis.building import Study, rows_of
@@ -73,11 +72,6 @@ Family = tuple[str, str, str, np.ndarray]
 """Distribution, test, coordinate, and the p-values of all point sets."""
 
 
-def point_sets(data: Measurements) -> pd.DataFrame:
-    """Keep a row a point set: all methods triangulate the same points, tested once."""
-    return data.results.drop_duplicates(["distribution", "n_points", "replicate"])
-
-
 @rows_of(RANDOMNESS)
 def randomness(study: Study) -> Iterator[Row]:
     """How many of all runs and Kolmogorov-Smirnov tests reject, and whether p is uniform."""
@@ -117,7 +111,7 @@ def uniformity(study: Study) -> Iterator[Row]:
 
 
 def _families(data: Measurements) -> Iterator[Family]:
-    sets = point_sets(data)
+    sets = data.point_sets
     for distribution, (test, prefix), coordinate in product(
         data.design.distributions, TESTS.items(), COORDINATES
     ):

@@ -26,7 +26,7 @@ MIN_POINTS = 3
 #: A triangulation of n points makes up to 4 n edges, whose sides are numbered by 32-bit integers.
 MAX_POINTS = (2**31 - 1) // 8
 #: More rows than this do not belong into one directory (a row and its histograms take 1 to 2 kB).
-MAX_TASKS = 1_000_000
+MAX_TRIANGULATIONS = 1_000_000
 #: The largest whole number that a TOML file can hold.
 MAX_SEED = 2**63 - 1
 
@@ -39,7 +39,7 @@ _ALLOWED = {
         f"a list of whole numbers of points from {MIN_POINTS} to {MAX_POINTS:,}, or a range "
         "such as { first = 10000, last = 200000, step = 10000 }"
     ),
-    "repetitions": f"a whole number from 1 to {MAX_TASKS:,}",
+    "repetitions": f"a whole number from 1 to {MAX_TRIANGULATIONS:,}",
     "seed": f"a whole number from 0 to {MAX_SEED}",
     "correlation": "a number between -1 and 1, both excluded",
 }
@@ -82,7 +82,7 @@ class Design(BaseModel):
     sizes: tuple[Annotated[StrictInt, Field(ge=MIN_POINTS, le=MAX_POINTS)], ...] = Field(
         min_length=1
     )
-    repetitions: StrictInt = Field(ge=1, le=MAX_TASKS)
+    repetitions: StrictInt = Field(ge=1, le=MAX_TRIANGULATIONS)
     seed: StrictInt = Field(DEFAULT_SEED, ge=0, le=MAX_SEED)
     correlation: StrictFloat = Field(0.5, gt=-1, lt=1, allow_inf_nan=False)
 
@@ -97,7 +97,7 @@ class Design(BaseModel):
         first, last, step = sizes["first"], sizes["last"], sizes["step"]
         if not (MIN_POINTS <= first <= last <= MAX_POINTS and step > 0):
             raise ValueError(sizes)
-        if (last - first) // step >= MAX_TASKS:
+        if (last - first) // step >= MAX_TRIANGULATIONS:
             raise ValueError(sizes)
         return list(range(first, last + 1, step))
 
@@ -118,7 +118,7 @@ class Design(BaseModel):
         return tuple(sorted(set(sizes)))
 
     @property
-    def n_tasks(self) -> int:
+    def n_triangulations(self) -> int:
         """Number of triangulations."""
         groups = len(self.methods) * len(self.distributions) * len(self.sizes)
         return groups * self.repetitions
@@ -149,10 +149,11 @@ class Design(BaseModel):
             design = cls(**settings)
         except ValidationError as error:
             raise InputError(_sentence(where, error.errors()[0])) from None
-        if design.n_tasks > MAX_TASKS:
+        if design.n_triangulations > MAX_TRIANGULATIONS:
             raise InputError(
-                f"{where} has {design.n_tasks:,} triangulations, more than the {MAX_TASKS:,} that "
-                "one results directory holds: divide it into several designs."
+                f"{where} has {design.n_triangulations:,} triangulations, more than the "
+                f"{MAX_TRIANGULATIONS:,} that one results directory holds: divide it into several "
+                "designs."
             )
         return design
 

@@ -2,14 +2,13 @@
 
 import contextlib
 import io
-import os
-import tempfile
 from pathlib import Path
 
 import numpy as np
 
 import lepp
 from study.meshes.survey import Survey
+from study.results.files import replacing
 
 FORMATS = {".vtu": "vtu", ".vtk": "vtk", ".xdmf": "xdmf", ".xmf": "xdmf", ".msh": "gmsh22"}
 """The formats that keep data of cells, by extension."""
@@ -87,15 +86,15 @@ def write_mesh(found: Survey, output: Path) -> None:
     )
     kind = FORMATS[output.suffix.lower()]
     settings = {"data_format": "XML"} if kind == "xdmf" else {}  # one file, and no need of HDF5
-    with tempfile.TemporaryDirectory(dir=output.parent, prefix=".lepp-") as folder:
-        whole = Path(folder) / output.name
+    with replacing(output) as whole:
         try:
             with (
                 contextlib.redirect_stdout(io.StringIO()),
                 contextlib.redirect_stderr(io.StringIO()),
             ):
                 meshio.write(whole, mesh, file_format=kind, **settings)
-            os.replace(whole, output)
+        except OSError:  # of the disk; whatever else is of the format
+            raise
         except (Exception, SystemExit) as error:
             raise lepp.InputError(
                 f"{output} could not be written ({type(error).__name__}: {error}): try another "

@@ -11,7 +11,7 @@ from study.analysis.bound_tests import BOUNDS, UPPER_BOUND
 from study.analysis.building import Study, rows_of
 from study.analysis.group_assumptions import CENTERS, LEVENE, SHAPIRO
 from study.analysis.group_summaries import GROUPS
-from study.analysis.point_randomness import COORDINATES, TESTS, point_sets
+from study.analysis.point_randomness import COORDINATES, TESTS
 from study.analysis.regressions import COEFFICIENTS, LEAST_SQUARES, REGRESSIONS
 from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Declaration, Row
 from study.analysis.variance_analysis import ANOVA, CLASSICAL
@@ -178,7 +178,7 @@ def _judge(ours: _Ours) -> Judged:
 
 
 def _table_1(ours: _Ours) -> Judged:
-    sets = point_sets(ours.data)
+    sets = ours.data.point_sets
     sets = sets[sets["distribution"] == SHOWN]
     numbers = published.table_1()
     columns = [f"{prefix}_{coordinate}" for prefix in TESTS.values() for coordinate in COORDINATES]

@@ -9,10 +9,11 @@ import os
 from collections.abc import Iterable
 from pathlib import Path
 from time import monotonic
+from typing import Any
 from zlib import crc32
 
 from lepp import InputError
-from study.run.experiment import Outcome, Task
+from study.run.kinds import Kind, Outcome
 
 #: A crash of the machine, unlike one of the run, loses what was written in this time.
 SYNC_SECONDS = 1.0
@@ -37,7 +38,7 @@ class Journal:
 
     def append(self, outcomes: Iterable[Outcome]) -> None:
         """Write outcomes; they survive the death of this process when this returns."""
-        lines = memoryview("".join(_line(outcome) for outcome in outcomes).encode())
+        lines = memoryview(journal_text(outcomes).encode())
         while lines:
             lines = lines[self._file.write(lines) :]
         if monotonic() - self._synced >= SYNC_SECONDS:
@@ -50,8 +51,20 @@ class Journal:
         self._file.close()
 
 
-def read_journal(path: Path) -> list[Outcome]:
+def journal_text(outcomes: Iterable[Outcome]) -> str:
+    """Return the lines of outcomes."""
+    return "".join(_line(outcome) for outcome in outcomes)
+
+
+def read_journal(path: Path, kind: Kind) -> list[Outcome]:
     """Read the outcomes of a journal in the order of their writing.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    kind : Kind
+        The kind of its tasks.
 
     Raises
     ------
@@ -60,7 +73,7 @@ def read_journal(path: Path) -> list[Outcome]:
     """
     content = path.read_bytes()
     lines = content[: _whole_lines(content)].split(b"\n")[:-1]
-    return [_outcome(line, f"{path}, line {number},") for number, line in enumerate(lines, 1)]
+    return [_outcome(line, kind, f"{path}, line {number},") for number, line in enumerate(lines, 1)]
 
 
 def _whole_lines(content: bytes) -> int:
@@ -72,20 +85,13 @@ def _line(outcome: Outcome) -> str:
     return _HEAD.format(crc32(body.encode())) + body + "}\n"
 
 
-def _outcome(line: bytes, where: str) -> Outcome:
+def _outcome(line: bytes, kind: Kind, where: str) -> Outcome:
     head = len(_HEAD.format(0))
     body = line[head:-1]
     if line != _HEAD.format(crc32(body)).encode() + body + b"}":
         raise InputError(
-            f"{where} is damaged: delete this line, and its triangulation will be computed again."
+            f"{where} is damaged: delete this line, and its task will be computed again."
         )
-    fields = json.loads(body)
-    return Outcome(
-        task=Task(*fields["task"]),
-        measures=fields["measures"],
-        histogram=[(size, count) for size, count in fields["histogram"]],
-        regions=[(size, count) for size, count in fields["regions"]],
-        timings=fields["timings"],
-        worker=fields["worker"],
-        error=fields["error"],
-    )
+    fields: dict[str, Any] = json.loads(body)
+    rows = {name: [tuple(cells) for cells in cells_of] for name, cells_of in fields["rows"].items()}
+    return Outcome(**fields | {"task": kind.task(*fields["task"]), "rows": rows})

@@ -1,93 +1,117 @@
-"""The columns of the result files, and the tables that outcomes make."""
+"""From the outcomes of tasks to tables and back."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from itertools import chain
+from typing import Any
 
 import numpy as np
+import pandas as pd
 import pyarrow as pa
 
-from study.run.experiment import Histogram, Outcome
-
-_TASK = [
-    ("method", pa.string()),
-    ("distribution", pa.string()),
-    ("n_points", pa.int64()),
-    ("replicate", pa.int64()),
-]
-
-#: Measured columns of the results: null where a task failed.
-MEASURES = {
-    "n_triangles": pa.int64(),
-    "n_hull": pa.int64(),
-    "n_repeated": pa.int64(),
-    "mean_lepp": pa.float64(),
-    "sd_lepp": pa.float64(),
-    "skewness_lepp": pa.float64(),
-    "kurtosis_lepp": pa.float64(),
-    "max_lepp": pa.int64(),
-    "n_interior_longest": pa.int64(),
-    "n_type_a": pa.int64(),
-    "n_type_b": pa.int64(),
-    "n_type_c": pa.int64(),
-    "n_regions": pa.int64(),
-    "max_region": pa.int64(),
-    "runs_p_x": pa.float64(),
-    "runs_p_y": pa.float64(),
-    "ks_p_x": pa.float64(),
-    "ks_p_y": pa.float64(),
-}
-
-TIMINGS = ("sample_s", "check_s", "triangulate_s", "lepp_s")
-
-SCHEMAS = {
-    "results": pa.schema([*_TASK, *MEASURES.items(), ("error", pa.string())]),
-    "histograms": pa.schema([*_TASK, ("lepp_size", pa.int64()), ("count", pa.int64())]),
-    "regions": pa.schema([*_TASK, ("region_size", pa.int64()), ("count", pa.int64())]),
-    "timings": pa.schema(
-        [*_TASK, *((name, pa.float64()) for name in TIMINGS), ("worker", pa.string())]
-    ),
-}
+from study.run.kinds import ERROR, WORKER, Cells, Kind, Outcome
 
 
-def tables_of(outcomes: Sequence[Outcome]) -> dict[str, pa.Table]:
-    """Arrange outcomes as the four tables of a results directory.
+def tables_of(kind: Kind, design: Any, outcomes: Sequence[Outcome]) -> dict[str, pa.Table]:  # noqa: ANN401 - of the kind's own type
+    """Arrange outcomes as the tables of a results directory.
 
     Parameters
     ----------
+    kind : Kind
+        The kind of the tasks.
+    design : kind.design
+        Their design; orders the rows.
     outcomes : sequence of Outcome
-        In the order that the rows are to have.
+        In the order of the tasks.
 
     Returns
     -------
     tables : dict of str to pyarrow.Table
-        By the names of `SCHEMAS`.
+        By the names of `kind.tables`.
     """
-    tasks = _task_columns(outcomes)
-    measures = [[o.measures.get(name) for o in outcomes] for name in MEASURES]
-    timings = [[o.timings.get(name) for o in outcomes] for name in TIMINGS]
-    columns = {
-        "results": [*tasks, *measures, [o.error for o in outcomes]],
-        "histograms": _histogram_columns(tasks, [o.histogram for o in outcomes]),
-        "regions": _histogram_columns(tasks, [o.regions for o in outcomes]),
-        "timings": [*tasks, *timings, [o.worker for o in outcomes]],
-    }
+    order = kind.order_of(design)
     return {
-        name: pa.table(
-            [pa.array(c, type=t) for c, t in zip(columns[name], schema.types, strict=True)],
-            schema=schema,
-        )
-        for name, schema in SCHEMAS.items()
+        name: _ordered(_table(name, table.schema, outcomes), order)
+        for name, table in kind.tables.items()
     }
 
 
-def _task_columns(outcomes: Sequence[Outcome]) -> list[pa.Array]:
-    return [
-        pa.array([outcome.task[position] for outcome in outcomes], type=kind)
-        for position, (_, kind) in enumerate(_TASK)
+def outcomes_of(kind: Kind, tables: Mapping[str, pa.Table]) -> dict[Any, Outcome]:
+    """Return the outcomes that tables were made of, by their tasks.
+
+    Rows of a task are in the order of their tables; a task is failed if one of its rows is, and
+    its own time, which no table needs, is not known any more.
+    """
+    rows: dict[Any, dict[str, list[Cells]]] = {}
+    errors: dict[Any, list[str]] = {}
+    workers: dict[Any, str] = {}
+    for name, table in tables.items():
+        columns = table.to_pydict()
+        nothing = [None] * len(table)
+        own = [columns[column] for column in table.schema.names if _is_cell(column, kind.task)]
+        keys = zip(*(columns[field] for field in kind.task._fields), strict=True)
+        for key, cells, error, worker in zip(
+            keys,
+            zip(*own, strict=True) if own else [()] * len(table),
+            columns.get(ERROR, nothing),
+            columns.get(WORKER, nothing),
+            strict=True,
+        ):
+            task = kind.task(*key)
+            rows.setdefault(task, {}).setdefault(name, []).append(cells)
+            if error is not None:
+                errors.setdefault(task, []).append(error)
+            if worker is not None:
+                workers[task] = worker
+    return {
+        task: Outcome(
+            task,
+            by_table,
+            worker=workers.get(task, ""),
+            error="; ".join(dict.fromkeys(errors.get(task, []))) or None,
+        )
+        for task, by_table in rows.items()
+    }
+
+
+def frame_of(table: pa.Table) -> pd.DataFrame:
+    """Return a table as a frame: integers with gaps stay integers, texts are texts."""
+    frame = table.to_pandas()
+    for field in table.schema:
+        if pa.types.is_integer(field.type) and table[field.name].null_count:
+            frame[field.name] = pd.array(table[field.name].to_pylist(), dtype="Int64")
+        elif pa.types.is_string(field.type):
+            frame[field.name] = frame[field.name].astype("str")
+    return frame
+
+
+def _is_cell(column: str, task: Any) -> bool:  # noqa: ANN401 - a type of named tuples
+    """Tell whether the rows of outcomes have a cell of a column."""
+    return column not in task._fields and column != WORKER
+
+
+def _table(name: str, schema: pa.Schema, outcomes: Sequence[Outcome]) -> pa.Table:
+    rows = [outcome.rows.get(name, []) for outcome in outcomes]
+    of_outcomes = {WORKER: [outcome.worker for outcome in outcomes]}
+    for position, field in enumerate(outcomes[0].task._fields if outcomes else ()):
+        of_outcomes[field] = [outcome.task[position] for outcome in outcomes]
+    places = pa.array(np.repeat(np.arange(len(rows)), [len(part) for part in rows]))
+    own = iter(zip(*chain.from_iterable(rows), strict=True))
+    arrays = [
+        pa.array(of_outcomes[field.name], type=field.type).take(places)
+        if field.name in of_outcomes
+        else pa.array(next(own, ()), type=field.type)
+        for field in schema
     ]
+    return pa.table(arrays, schema=schema)
 
 
-def _histogram_columns(tasks: list[pa.Array], histograms: list[Histogram]) -> list[pa.Array]:
-    rows = np.repeat(np.arange(len(histograms)), [len(histogram) for histogram in histograms])
-    bars = np.array([bar for histogram in histograms for bar in histogram], dtype=np.int64)
-    bars = bars.reshape(-1, 2)
-    return [*(column.take(pa.array(rows)) for column in tasks), bars[:, 0], bars[:, 1]]
+def _ordered(table: pa.Table, order: Mapping[str, Sequence[object]]) -> pa.Table:
+    """Order rows by the columns that come before the tasks, and else leave them as they are."""
+    ranks = []
+    for name, values in order.items():
+        if name in table.schema.names:
+            rank = {value: place for place, value in enumerate(values)}
+            ranks.append([rank[cell] for cell in table[name].to_pylist()])
+    if not ranks:
+        return table
+    return table.take(pa.array(np.lexsort(ranks[::-1]))).combine_chunks()

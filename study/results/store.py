@@ -7,48 +7,35 @@ again). Whole files only ever appear by renaming. So at any moment either the ma
 and the Parquet files are the truth, or it is not and the journal is.
 """
 
+import errno
 import hashlib
 import json
-import os
-import platform
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Self
 
 import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
+from filelock import FileLock, Timeout
 
 from lepp import InputError
-from study.results import lock
-from study.results.schema import MEASURES, SCHEMAS, tables_of
-from study.design.design import Design
-from study.run.experiment import Outcome, Task, tasks_of
-from study.results.journal import Journal, read_journal
+from study.results.files import leftovers, replacing, write_text
+from study.results.journal import Journal, journal_text, read_journal
+from study.results.manifest import FORMAT, MANIFEST, Manifest, environment, read_manifest
+from study.results.schema import frame_of, outcomes_of, tables_of
+from study.run.kinds import Kind, Outcome
 
-FORMAT = 1
-MANIFEST = "manifest.json"
 JOURNAL = "journal.jsonl"
+LOCK = ".lock"
 
-#: Packages whose versions can change a number, or a byte, of the results or the report.
-_PACKAGES = (
-    "lepp-study",
-    "numpy",
-    "scipy",
-    "numba",
-    "llvmlite",
-    "pandas",
-    "pyarrow",
-    "statsmodels",
-    "dask",
-    "distributed",
-)
+#: What file managers leave wherever they have been.
+_NOBODYS = {".DS_Store", "Thumbs.db", "desktop.ini"}
 
-#: Files whose bytes the design alone decides; the manifest holds their checksums.
-_CHECKED = ("results", "histograms", "regions")
+#: What file systems without locks say to a request for one.
+_NO_LOCKS = {errno.ENOSYS, errno.ENOLCK, errno.ENOTSUP, errno.EOPNOTSUPP}
 
 
 @dataclass(frozen=True)
@@ -57,23 +44,26 @@ class Results:
 
     Attributes
     ----------
-    results, histograms, regions, timings : pandas.DataFrame
-        One row a task; one a task and LEPP size; one a task and region size; one a task.
+    frames : dict of str to pandas.DataFrame
+        By the names of `kind.tables`; ``results["…"]`` is the same.
     manifest : dict
         Design, environment, completeness.
-    design : Design
+    kind : Kind
+        The kind of the tasks.
+    design : kind.design
         The design.
     complete : bool
-        Whether every task has a row, be it that of a failure.
+        Whether every task has its rows, be they those of a failure.
     """
 
-    results: pd.DataFrame
-    histograms: pd.DataFrame
-    regions: pd.DataFrame
-    timings: pd.DataFrame
+    frames: dict[str, pd.DataFrame]
     manifest: dict[str, Any]
-    design: Design
+    kind: Kind
+    design: Any
     complete: bool
+
+    def __getitem__(self, table: str) -> pd.DataFrame:
+        return self.frames[table]
 
 
 def load(directory: Path | str) -> Results:
@@ -85,24 +75,33 @@ def load(directory: Path | str) -> Results:
         If the directory is not a results directory, or a file in it was cut short or edited.
     """
     directory = Path(directory)
-    manifest, design = _read_manifest(directory)
-    if not (manifest["complete"] or (directory / JOURNAL).exists()):
-        # A run may have finished since the manifest was read.
-        manifest, design = _read_manifest(directory)
-    if manifest["complete"]:
-        _check_files(directory, manifest)
-        tables = {name: _read_parquet(directory / f"{name}.parquet") for name in SCHEMAS}
-    else:
-        outcomes = _read_outcomes(directory, design)
-        tables = tables_of([outcomes[task] for task in tasks_of(design) if task in outcomes])
-    frames = {name: _frame(table) for name, table in tables.items()}
-    return Results(**frames, manifest=manifest, design=design, complete=manifest["complete"])
+    # A run may begin or finish meanwhile: then its manifest changes, and files that go with it.
+    while True:
+        manifest = read_manifest(directory)
+        try:
+            tables = _read_tables(directory, manifest)
+        except InputError:
+            if read_manifest(directory).text == manifest.text:
+                raise
+            continue
+        if read_manifest(directory).text == manifest.text:
+            break
+    return Results(
+        {name: frame_of(table) for name, table in tables.items()},
+        manifest.content,
+        manifest.kind,
+        manifest.design,
+        manifest.complete,
+    )
 
 
-def design_of(directory: Path | str) -> Design | None:
-    """Return the design of a results directory, or None if there is no such directory yet."""
+def design_of(directory: Path | str) -> tuple[Kind, Any] | None:
+    """Return kind and design of a results directory, or None if there is no such directory yet."""
     directory = Path(directory)
-    return _read_manifest(directory)[1] if (directory / MANIFEST).exists() else None
+    if not (directory / MANIFEST).exists():
+        return None
+    manifest = read_manifest(directory)
+    return manifest.kind, manifest.design
 
 
 class Store:
@@ -112,8 +111,12 @@ class Store:
     ----------
     directory : Path
         Made if it does not exist. A run that was cut short is taken up again.
-    design : Design
+    kind : Kind
+        The kind of the tasks.
+    design : kind.design
         The design of the run.
+    note : callable, optional
+        Takes a sentence about something out of the ordinary.
 
     Raises
     ------
@@ -122,18 +125,26 @@ class Store:
         writing into it, or if it cannot be written.
     """
 
-    def __init__(self, directory: Path, design: Design) -> None:
+    def __init__(
+        self,
+        directory: Path,
+        kind: Kind,
+        design: Any,  # noqa: ANN401 - of the kind's own type
+        note: Callable[[str], None] = lambda sentence: None,
+    ) -> None:
         self.directory = directory
+        self.kind = kind
         self.design = design
-        self._outcomes: dict[Task, Outcome] = {}
-        self._environments = [_environment()]
+        self.tasks = kind.tasks_of(design)
+        self._outcomes: dict[Any, Outcome] = {}
+        self._environments = [environment()]
         #: Open while there are tasks to run.
         self._journal: Journal | None = None
         with _writing(directory):
             if directory.exists():
                 _check_ours(directory)
             directory.mkdir(parents=True, exist_ok=True)
-            self._lock = lock.DirectoryLock(directory)
+            self._lock = _locked(directory, note)
         try:
             with _writing(directory):
                 self._open()
@@ -155,42 +166,65 @@ class Store:
                     self._journal.close()
                 self._journal = None
         finally:
+            # The file stays: removing it would let two runs hold two locks.
             self._lock.release()
 
     def _open(self) -> None:
-        manifest: dict[str, Any] = {"complete": False}
+        for name in (MANIFEST, JOURNAL, *map(_file, self.kind.tables)):
+            for leftover in leftovers(self.directory / name):
+                leftover.unlink()
+        complete = False
         if (self.directory / MANIFEST).exists():
-            manifest, found = _read_manifest(self.directory)
-            difference = found.difference(self.design)
-            if difference and not self._has_nothing(manifest):
-                raise InputError(
-                    f"{self.directory} holds the results of another design ({difference}): give "
-                    "another directory."
-                )
+            manifest = read_manifest(self.directory)
+            self._check_same(manifest)
             now = self._environments[0]
-            self._environments += [e for e in manifest["environments"] if e != now]
-        if manifest["complete"]:
-            _check_files(self.directory, manifest)
-            if manifest["failed"] == 0:
-                (self.directory / JOURNAL).unlink(missing_ok=True)
+            self._environments += [e for e in manifest.content["environments"] if e != now]
+            complete = manifest.complete
+        journal = self.directory / JOURNAL
+        if complete:
+            tables = _read_tables(self.directory, manifest)
+            if manifest.content["failed"] == 0:
+                journal.unlink(missing_ok=True)
                 return
-        self._outcomes = _read_outcomes(self.directory, self.design)
+            self._outcomes = outcomes_of(self.kind, tables)
+        in_journal = _read_journal(self.directory, self.kind, set(self.tasks))
+        for task, outcome in in_journal.items():
+            known = self._outcomes.get(task)
+            if outcome.error is None or known is None or known.error is not None:
+                self._outcomes[task] = outcome
+        # From the next manifest on, the journal is the truth: it must hold all.
+        if any(in_journal.get(task) is not outcome for task, outcome in self._outcomes.items()):
+            write_text(journal, journal_text(self._outcomes.values()))
         self._write_manifest(complete=False)
-        self._journal = Journal(self.directory / JOURNAL)
+        self._journal = Journal(journal)
 
-    def _has_nothing(self, manifest: dict[str, Any]) -> bool:
+    def _check_same(self, manifest: Manifest) -> None:
+        """Refuse to write where the results of another study are."""
+        if self._has_nothing(manifest):
+            return
+        if manifest.kind.name != self.kind.name:
+            difference: str | None = f"{manifest.kind.name} there and {self.kind.name} here"
+        else:
+            difference = manifest.design.difference(self.design)
+        if difference:
+            raise InputError(
+                f"{self.directory} holds the results of another design ({difference}): give "
+                "another directory."
+            )
+
+    def _has_nothing(self, manifest: Manifest) -> bool:
         """Whether the run of a manifest ended before its first result, for example in an error."""
         journal = self.directory / JOURNAL
-        return not manifest["complete"] and (not journal.exists() or journal.stat().st_size == 0)
+        return not manifest.complete and (not journal.exists() or journal.stat().st_size == 0)
 
     @property
-    def unfinished(self) -> list[Task]:
+    def unfinished(self) -> list[Any]:
         """The tasks that have no outcome yet or have failed, in the order of the results."""
         if self._journal is None:
             return []
         return [
             task
-            for task in tasks_of(self.design)
+            for task in self.tasks
             if task not in self._outcomes or self._outcomes[task].error is not None
         ]
 
@@ -222,10 +256,10 @@ class Store:
         """Write the result files of a run whose tasks all have an outcome."""
         if self._journal is None:
             return
-        outcomes = [self._outcomes[task] for task in tasks_of(self.design)]
+        outcomes = [self._outcomes[task] for task in self.tasks]
         with _writing(self.directory):
-            for name, table in tables_of(outcomes).items():
-                with _replacing(self.directory / f"{name}.parquet") as path:
+            for name, table in tables_of(self.kind, self.design, outcomes).items():
+                with replacing(self.directory / _file(name)) as path:
                     pq.write_table(table, path, compression="zstd")
             self._write_manifest(complete=True)
             self._journal.close()
@@ -236,35 +270,50 @@ class Store:
     @property
     def failures(self) -> list[Outcome]:
         """The outcomes of the tasks that failed, in the order of the results."""
-        known = (self._outcomes.get(task) for task in tasks_of(self.design))
+        known = (self._outcomes.get(task) for task in self.tasks)
         return [outcome for outcome in known if outcome is not None and outcome.error is not None]
 
     def _write_manifest(self, *, complete: bool) -> None:
         manifest: dict[str, Any] = {
             "format": FORMAT,
+            "kind": self.kind.name,
             "complete": complete,
-            "tasks": self.design.n_tasks,
+            "tasks": len(self.tasks),
             "design": self.design.model_dump(mode="json"),
         }
         if complete:
             manifest["failed"] = len(self.failures)
             manifest["sha256"] = {
-                f"{name}.parquet": _sha256(self.directory / f"{name}.parquet") for name in _CHECKED
+                _file(name): _sha256(self.directory / _file(name))
+                for name, table in self.kind.tables.items()
+                if table.reproducible
             }
         manifest["environments"] = self._environments
-        with _replacing(self.directory / MANIFEST) as path:
-            path.write_text(json.dumps(manifest, indent=2) + "\n", encoding="utf-8")
+        write_text(self.directory / MANIFEST, json.dumps(manifest, indent=2) + "\n")
 
 
-def _environment() -> dict[str, Any]:
-    """Describe what the numbers are computed with."""
-    return {
-        "python": platform.python_version(),
-        "implementation": platform.python_implementation(),
-        "system": platform.system(),
-        "machine": platform.machine(),
-        "packages": {name: version(name) for name in _PACKAGES},
-    }
+def _file(table: str) -> str:
+    return f"{table}.parquet"
+
+
+def _locked(directory: Path, note: Callable[[str], None]) -> FileLock:
+    """Keep every other run out of a directory until the lock is released or its holder dies."""
+    # No file that only means to be a lock: it would outlive a run that is killed.
+    lock = FileLock(directory / LOCK, blocking=False, thread_local=False, fallback_to_soft=False)
+    try:
+        lock.acquire()
+    except Timeout:
+        raise InputError(
+            f"Another run is writing into {directory}: wait for its end, or give another directory."
+        ) from None
+    except OSError as error:
+        if error.errno not in _NO_LOCKS:
+            raise
+        note(
+            f"The file system of {directory} has no locks: see to it that no other run writes "
+            "there meanwhile."
+        )
+    return lock
 
 
 def _check_ours(directory: Path) -> None:
@@ -273,54 +322,39 @@ def _check_ours(directory: Path) -> None:
         raise InputError(f"{directory} is a file: give a directory for the results.")
     names = {path.name for path in directory.iterdir()}
     # A run that is killed before it has written its manifest leaves these.
-    if MANIFEST not in names and names - {lock.NAME, _temporary(directory / MANIFEST).name}:
+    ours = {LOCK, *(path.name for path in leftovers(directory / MANIFEST))}
+    if MANIFEST not in names and names - ours - _NOBODYS:
         raise InputError(
             f"{directory} is not empty and holds no results of lepp-study: give another directory."
         )
 
 
-def _read_manifest(directory: Path) -> tuple[dict[str, Any], Design]:
-    path = directory / MANIFEST
-    try:
-        manifest = json.loads(path.read_text(encoding="utf-8"))
-        form = manifest["format"]
-        if form == FORMAT:
-            needed = {"complete", "tasks", "environments"}
-            if manifest["complete"]:
-                needed |= {"failed", "sha256"}
-            if not needed <= manifest.keys():
-                raise KeyError(needed)
-            return manifest, Design.from_settings(manifest["design"], f"{path}: the design")
-    except FileNotFoundError:
-        raise InputError(
-            f"{directory} holds no results of lepp-study ({MANIFEST} is missing)."
-        ) from None
-    except OSError as error:
-        raise InputError(f"Cannot read {path}: {error.strerror}.") from None
-    except (ValueError, KeyError, TypeError) as error:
-        if isinstance(error, InputError):
-            raise
-        raise InputError(
-            f"{path} was cut short or edited: restore it, or run the study in a new directory."
-        ) from None
-    raise InputError(
-        f"{path} is of format {form}, and this version of lepp-study reads format {FORMAT}: use "
-        "the version that wrote it."
-    )
+def _read_tables(directory: Path, manifest: Manifest) -> dict[str, pa.Table]:
+    if manifest.complete:
+        _check_files(directory, manifest.content["sha256"])
+        return {
+            name: _read_parquet(directory / _file(name), table.schema)
+            for name, table in manifest.kind.tables.items()
+        }
+    tasks = manifest.kind.tasks_of(manifest.design)
+    outcomes = _read_journal(directory, manifest.kind, set(tasks))
+    in_order = [outcomes[task] for task in tasks if task in outcomes]
+    return tables_of(manifest.kind, manifest.design, in_order)
 
 
-def _read_outcomes(directory: Path, design: Design) -> dict[Task, Outcome]:
-    """Read the journal of a run; a later success replaces a failure."""
+def _read_journal(directory: Path, kind: Kind, tasks: set[Any]) -> dict[Any, Outcome]:
+    """Read the outcomes of a journal, of each task the first success or the last failure."""
     path = directory / JOURNAL
-    if not path.exists():
+    try:
+        lines = read_journal(path, kind)
+    except FileNotFoundError:
         return {}
-    tasks = set(tasks_of(design))
-    outcomes: dict[Task, Outcome] = {}
-    for outcome in read_journal(path):
+    outcomes: dict[Any, Outcome] = {}
+    for outcome in lines:
         if outcome.task not in tasks:
             raise InputError(
-                f"{path} holds a triangulation that is not in the design ({outcome.task}): run the "
-                "study in a new directory."
+                f"{path} holds a task that is not in the design ({outcome.task}): run the study in "
+                "a new directory."
             )
         known = outcomes.get(outcome.task)
         if known is None or known.error is not None:
@@ -328,8 +362,8 @@ def _read_outcomes(directory: Path, design: Design) -> dict[Task, Outcome]:
     return outcomes
 
 
-def _check_files(directory: Path, manifest: dict[str, Any]) -> None:
-    for name, expected in manifest["sha256"].items():
+def _check_files(directory: Path, sha256: dict[str, str]) -> None:
+    for name, expected in sha256.items():
         path = directory / name
         if not path.exists():
             raise InputError(f"{path} is missing: restore it, or run the study in a new directory.")
@@ -345,23 +379,14 @@ def _sha256(path: Path) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def _read_parquet(path: Path) -> pa.Table:
+def _read_parquet(path: Path, schema: pa.Schema) -> pa.Table:
     try:
-        return pq.read_table(path, schema=SCHEMAS[path.stem])
+        return pq.read_table(path, schema=schema)
     except (OSError, pa.ArrowException) as error:
         raise InputError(
             f"{path} cannot be read ({str(error).splitlines()[0]}): restore it, or run the study "
             "in a new directory."
         ) from None
-
-
-def _frame(table: pa.Table) -> pd.DataFrame:
-    frame = table.to_pandas()
-    # pandas turns integers with gaps into floats; failed tasks leave gaps.
-    for name, kind in MEASURES.items():
-        if name in frame and pa.types.is_integer(kind) and table[name].null_count:
-            frame[name] = pd.array(table[name].to_pylist(), dtype="Int64")
-    return frame.astype({"error": "str"}) if "error" in frame else frame
 
 
 @contextmanager
@@ -371,23 +396,3 @@ def _writing(directory: Path) -> Iterator[None]:
         yield
     except OSError as error:
         raise InputError(f"Cannot write into {directory}: {error.strerror or error}.") from None
-
-
-def _temporary(path: Path) -> Path:
-    return path.with_name(f".{path.name}.tmp")
-
-
-@contextmanager
-def _replacing(path: Path) -> Iterator[Path]:
-    """Give a path to write to, and put the file in its place when it is whole on the disk."""
-    temporary = _temporary(path)
-    yield temporary
-    with temporary.open("rb") as file:
-        os.fsync(file.fileno())
-    temporary.replace(path)
-    if os.name == "posix":  # elsewhere a directory cannot be opened
-        directory = os.open(path.parent, os.O_RDONLY)
-        try:
-            os.fsync(directory)
-        finally:
-            os.close(directory)

@@ -3,10 +3,10 @@
 import logging
 import signal
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from multiprocessing import resource_tracker
-from threading import Thread
+from threading import Lock, Thread, Timer
 from typing import Any
 
 import dask
@@ -17,22 +17,20 @@ from distributed import Client, LocalCluster
 from distributed.system import MEMORY_LIMIT
 from distributed.versions import VersionMismatchWarning
 
-import lepp
 from lepp import InputError
-from study.design.design import Design
+from study.run.kinds import Kind
 
 # Few functions of distributed are annotated.
 _distributed: Any = distributed
 
-#: Memory that a task takes at a time: up to 155 measured, for Delaunay; the rest is a margin.
-BYTES_PER_POINT = 200
-
 CONNECT_SECONDS = 10
+#: What takes longer before the first task is told.
+PATIENCE_SECONDS = 3
 #: Workers of a cluster may still be starting when its scheduler answers.
 WORKERS_SECONDS = 60
 
-#: A worker compiles all kernels in less than a minute; it may have work of others to do.
-COMPILE_SECONDS = 600
+#: Compiling all kernels takes a worker less than a minute; it may have work of others to do.
+PREPARE_SECONDS = 600
 
 #: Packages that have to be the same to understand each other, and on the workers for the numbers.
 _WIRE = ("dask", "distributed", "cloudpickle", "msgpack")
@@ -52,17 +50,27 @@ _LOCAL_SETTINGS = {
 
 
 @contextmanager
-def connect(design: Design, workers: int | None, scheduler: str | None) -> Iterator[Client]:
+def connect(
+    kind: Kind,
+    design: Any,  # noqa: ANN401 - of the kind's own type
+    workers: int | None,
+    scheduler: str | None,
+    note: Callable[[str], None],
+) -> Iterator[Client]:
     """Start a cluster on this computer, or connect to a scheduler.
 
     Parameters
     ----------
-    design : Design
+    kind : Kind
+        The kind of the tasks; prepares the workers.
+    design : kind.design
         What is to be run; checked against the memory of the workers.
     workers : int or None
         Worker processes to start, with one thread each; None for one a core.
     scheduler : str or None
         Address of a running scheduler, such as ``tcp://10.0.0.1:8786``; None for this computer.
+    note : callable
+        Takes a sentence about what takes long.
 
     Raises
     ------
@@ -70,45 +78,107 @@ def connect(design: Design, workers: int | None, scheduler: str | None) -> Itera
         If the design does not fit into memory, the scheduler does not answer or has no workers,
         or its workers have other versions of what decides the numbers.
     """
-    for name in ("distributed", "distributed.client", "distributed.scheduler", "tornado"):
-        logging.getLogger(name).setLevel(logging.CRITICAL)
-    if scheduler is not None:
-        if workers is not None:
-            raise InputError("Give --workers or --scheduler, not both: a scheduler has its own.")
-        with _remote(scheduler) as client:
-            _check_workers(client, scheduler, design)
+    check_request(kind, design, workers, scheduler)
+    with _SILENCE:
+        if scheduler is not None:
+            with _remote(scheduler) as client:
+                _check_workers(client, scheduler, kind, design)
+                with _told_if_long(kind.preparing, note):
+                    _prepare_hosts(client, kind)
+                yield client
+            return
+        # Before the workers start, so that they only load: compiling in all of them at once is
+        # slow.
+        with _told_if_long(kind.preparing, note):
+            kind.prepare()
+        with dask.config.set(_LOCAL_SETTINGS), _local(workers or CPU_COUNT) as client:
             yield client
-        return
-    workers = workers or CPU_COUNT
-    # In a container, its limit; what other programs hold is not there either.
-    check_memory(design, workers, min(MEMORY_LIMIT, psutil.virtual_memory().available))
-    # Before the workers start, so that they only load: compiling in all of them at once is slow.
-    lepp.compile_kernels()
-    with dask.config.set(_LOCAL_SETTINGS), _local(workers) as client:
-        yield client
 
 
-def check_memory(design: Design, workers: int, available: int) -> None:
-    """Raise `InputError` if the largest triangulations, one a worker, do not fit into memory.
+def check_request(
+    kind: Kind,
+    design: Any,  # noqa: ANN401 - of the kind's own type
+    workers: int | None,
+    scheduler: str | None,
+) -> None:
+    """Raise `InputError` for what `connect` would refuse without asking anybody.
 
     Parameters
     ----------
-    design : Design
+    kind, design, workers, scheduler
+        As in `connect`.
+    """
+    if scheduler is None:
+        # In a container, its limit; what other programs hold is not there either.
+        available = min(MEMORY_LIMIT, psutil.virtual_memory().available)
+        check_memory(kind, design, workers or CPU_COUNT, available)
+    elif workers is not None:
+        raise InputError("Give --workers or --scheduler, not both: a scheduler has its own.")
+
+
+@contextmanager
+def _told_if_long(sentence: str, note: Callable[[str], None]) -> Iterator[None]:
+    """Say what is going on, if it goes on for some seconds."""
+    timer = Timer(PATIENCE_SECONDS, note, [sentence])
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
+
+
+class _Silence:
+    """Keeps the loggers of distributed quiet while it is entered, however many times."""
+
+    _NAMES = ("distributed", "distributed.client", "distributed.scheduler", "tornado")
+
+    def __init__(self) -> None:
+        self._lock = Lock()
+        self._depth = 0
+        self._levels: dict[str, int] = {}
+
+    def __enter__(self) -> None:
+        with self._lock:
+            if self._depth == 0:
+                self._levels = {name: logging.getLogger(name).level for name in self._NAMES}
+                for name in self._NAMES:
+                    logging.getLogger(name).setLevel(logging.CRITICAL)
+            self._depth += 1
+
+    def __exit__(self, *_: object) -> None:
+        with self._lock:
+            self._depth -= 1
+            if self._depth == 0:
+                for name, level in self._levels.items():
+                    logging.getLogger(name).setLevel(level)
+
+
+_SILENCE = _Silence()
+
+
+def check_memory(kind: Kind, design: Any, workers: int, available: int) -> None:  # noqa: ANN401 - of the kind's own type
+    """Raise `InputError` if the largest tasks, one a worker, do not fit into memory.
+
+    Parameters
+    ----------
+    kind : Kind
+        The kind of the tasks.
+    design : kind.design
         The design.
     workers : int
-        Triangulations at a time.
+        Tasks at a time.
     available : int
         Memory for all of them, in bytes.
     """
-    largest = design.sizes[-1]
-    needed = largest * BYTES_PER_POINT
+    what, needed = kind.memory_of(design)
     if needed * workers <= available:
         return
     fits = available // needed
     advice = f"use --workers {fits}" if fits else "use smaller sizes"
     each = f" and {workers} at once {_gigabytes(needed * workers)}" if workers > 1 else ""
     raise InputError(
-        f"A triangulation of {largest:,} points takes about {_gigabytes(needed)} of memory{each}, "
+        f"{what} takes about {_gigabytes(needed)} of memory{each}, "
         f"but {_gigabytes(available)} are free: {advice}."
     )
 
@@ -133,8 +203,9 @@ def _local(workers: int) -> Iterator[Client]:
             )
     except (OSError, RuntimeError, TimeoutError) as error:
         raise InputError(f"The workers did not start: {error}.") from error
-    client = _distributed.Client(cluster)
+    client = None
     try:
+        client = _distributed.Client(cluster)
         yield client
     finally:
         # The workers take a while to end, in which the report can be written; Python waits for
@@ -162,8 +233,10 @@ def _without_interrupts() -> Iterator[None]:
 
 
 def _close(client: Any, cluster: LocalCluster) -> None:  # noqa: ANN401 - as `_distributed`
-    client.close()
-    cluster.close()
+    with _SILENCE:
+        if client is not None:
+            client.close()
+        cluster.close()
 
 
 @contextmanager
@@ -182,7 +255,7 @@ def _remote(scheduler: str) -> Iterator[Client]:
         client.close(timeout=CONNECT_SECONDS)
 
 
-def _check_workers(client: Client, scheduler: str, design: Design) -> None:
+def _check_workers(client: Client, scheduler: str, kind: Kind, design: Any) -> None:  # noqa: ANN401 - of the kind's own type
     try:
         client.wait_for_workers(1, timeout=WORKERS_SECONDS)
     except TimeoutError:
@@ -197,13 +270,17 @@ def _check_workers(client: Client, scheduler: str, design: Design) -> None:
     workers = client.scheduler_info(n_workers=-1)["workers"]
     for worker in workers.values():
         if worker["memory_limit"]:
-            check_memory(design, worker["nthreads"], worker["memory_limit"])
-    # One worker a host compiles, the others then load.
+            check_memory(kind, design, worker["nthreads"], worker["memory_limit"])
+
+
+def _prepare_hosts(client: Client, kind: Kind) -> None:
+    """Have one worker a host prepare: it compiles the kernels that the others then load."""
+    workers = client.scheduler_info(n_workers=-1)["workers"]
     hosts = {worker["host"]: address for address, worker in workers.items()}
     for host, address in hosts.items():
-        future = client.submit(lepp.compile_kernels, workers=[address], pure=False)
+        future = client.submit(kind.prepare, workers=[address], pure=False)
         try:
-            future.result(timeout=COMPILE_SECONDS)
+            future.result(timeout=PREPARE_SECONDS)
         except Exception as error:  # whatever befalls a worker
             raise InputError(
                 f"The worker {address} on {host} could not compile the kernels ({error!r}): try "

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from scipy.special import kolmogorov, ndtr
 
 from study.design.sampling import Points, marginal_cdf
+from study.run.measures import measure
 
 Values = NDArray[np.float64]
 
@@ -19,7 +20,7 @@ _MANY = 1000
 
 
 @dataclass(frozen=True)
-class RandomnessChecks:
+class PointChecks:
     """p-values of the checks of one point set; NaN where a test is not defined.
 
     Attributes
@@ -30,13 +31,13 @@ class RandomnessChecks:
         Kolmogorov-Smirnov test against the true distribution.
     """
 
-    runs_p_x: float
-    runs_p_y: float
-    ks_p_x: float
-    ks_p_y: float
+    runs_p_x: float = measure("Runs test, p of x", format="p")
+    runs_p_y: float = measure("Runs test, p of y", format="p")
+    ks_p_x: float = measure("Kolmogorov-Smirnov, p of x", format="p")
+    ks_p_y: float = measure("Kolmogorov-Smirnov, p of y", format="p")
 
 
-def check_randomness(points: Points, distribution: str) -> RandomnessChecks:
+def check_randomness(points: Points, distribution: str) -> PointChecks:
     """Test the coordinates of a point set.
 
     Parameters
@@ -50,7 +51,7 @@ def check_randomness(points: Points, distribution: str) -> RandomnessChecks:
     # NumPy's sort is vectorised, and both tests live on it: it is most of the cost of the checks.
     x, y = np.ascontiguousarray(points[:, 0]), np.ascontiguousarray(points[:, 1])
     sorted_x, sorted_y = np.sort(x), np.sort(y)
-    return RandomnessChecks(
+    return PointChecks(
         runs_p_x=runs_p_value(x, _median(sorted_x)),
         runs_p_y=runs_p_value(y, _median(sorted_y)),
         ks_p_x=kolmogorov_p_value(kolmogorov_distance(sorted_x, cdf), len(x)),

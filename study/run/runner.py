@@ -10,14 +10,12 @@ from typing import Any, Protocol, cast
 from distributed import Client, Future, KilledWorker, as_completed, get_worker
 
 from lepp import InputError
-from study.design.design import Design
 from study.results.store import Store
-from study.run import experiment
-from study.run.cluster import connect
-from study.run.experiment import Outcome, Task
+from study.run.cluster import check_request, connect
+from study.run.kinds import Kind, Outcome, Size
 
-#: Tasks that are smaller than this are sent several at a time.
-BATCH_POINTS = 2_000_000
+#: Tasks of less work (such as points) than this are sent several at a time.
+BATCH_WORK = 2_000_000
 
 #: The last batches are smaller, so that no worker is left with a long one at the end.
 _LAST_SHARE = 4
@@ -36,7 +34,8 @@ _LOST = (
     "goes on from there when the scheduler is back."
 )
 
-Batch = list[Task]
+Batch = list[Any]
+"""Tasks of the study's kind."""
 
 
 class RunStoppedError(InputError):
@@ -46,14 +45,14 @@ class RunStoppedError(InputError):
 class Listener(Protocol):
     """What follows the progress of a run."""
 
-    def begin(self, unfinished: Sequence[Task], n_tasks: int) -> None:
-        """Hear of the tasks to compute, and of the number of all tasks of the design.
+    def begin(self, units: tuple[str, str], unfinished: Size, whole: Size) -> None:
+        """Hear how much there is to compute, and how much the whole study is, in units.
 
         The workers have their first tasks by then, so this may take a second.
         """
 
-    def advance(self, outcome: Outcome) -> None:
-        """Hear of a task that was computed, or has failed for the last time."""
+    def advance(self, outcome: Outcome, size: Size) -> None:
+        """Hear of a task that was computed, or has failed for the last time, and of its size."""
 
     def note(self, sentence: str) -> None:
         """Hear of something out of the ordinary."""
@@ -65,31 +64,57 @@ class Summary:
 
     Attributes
     ----------
-    n_computed : int
-        Tasks that were computed in this run.
-    n_points : int
-        Points of these.
+    computed : Size
+        What was computed in this run.
+    units : (str, str)
+        What that counts.
     failures : list of Outcome
         Tasks that have failed, this time or before.
     seconds : float
-        Duration of the run, the start and end of the workers included.
+        Duration of the run, the start of the workers included; their end goes on beside the rest.
     kernel_seconds : float
         Sum of the computed tasks' own times.
     n_threads : int
-        Threads of the workers at the end of the run; 0 if there was nothing to run.
+        Most threads that the workers had at a time; 0 if there was nothing to run.
     """
 
-    n_computed: int
-    n_points: int
+    computed: Size
+    units: tuple[str, str]
     failures: list[Outcome]
     seconds: float
     kernel_seconds: float
     n_threads: int
 
 
+class Threads:
+    """The threads of a cluster's workers, counted now and then.
+
+    Parameters
+    ----------
+    client : distributed.Client
+        The cluster.
+    """
+
+    def __init__(self, client: Client) -> None:
+        self._client = client
+        self.now = self.most = 0
+        self._counted = -_RECOUNT_SECONDS
+        self.count()
+
+    def count(self) -> bool:
+        """Count if it is time; return whether the last thread has gone."""
+        if monotonic() - self._counted <= _RECOUNT_SECONDS:
+            return False
+        before, self.now = self.now, sum(cast(Any, self._client).nthreads().values())
+        self.most = max(self.most, self.now)
+        self._counted = monotonic()
+        return before > 0 and self.now == 0
+
+
 def run(
     directory: Path,
-    design: Design,
+    kind: Kind,
+    design: Any,  # noqa: ANN401 - of the kind's own type
     *,
     workers: int | None = None,
     scheduler: str | None = None,
@@ -101,7 +126,9 @@ def run(
     ----------
     directory : Path
         The results directory; made, or taken up where an earlier run was cut short.
-    design : Design
+    kind : Kind
+        The kind of the tasks.
+    design : kind.design
         The design.
     workers, scheduler : int or None, str or None
         As in `study.run.cluster.connect`.
@@ -114,29 +141,36 @@ def run(
         If the directory or the cluster cannot be used; `RunStoppedError` if the scheduler is lost.
     """
     start = perf_counter()
-    n_points, kernel_seconds, n_computed, n_threads = 0, 0.0, 0, 0
-    with Store(directory, design) as store:
+    computed, kernel_seconds, n_threads = [Size(0, 0)], 0.0, 0
+    if not directory.exists():  # nothing is left of a run that could not begin
+        check_request(kind, design, workers, scheduler)
+    with Store(directory, kind, design, listener.note) as store:
         if store.unfinished:
-            with connect(design, workers, scheduler) as client:
-                for outcome in compute(client, store, listener):
-                    listener.advance(outcome)
-                    n_computed += 1
-                    n_points += outcome.task.n_points
-                    kernel_seconds += sum(outcome.timings.values())
-                n_threads = _n_threads(client)
+            with connect(kind, design, workers, scheduler, listener.note) as client:
+                threads = Threads(client)
+                for outcome in compute(client, threads, store, listener):
+                    size = kind.size_of(outcome.task, design)
+                    listener.advance(outcome, size)
+                    computed.append(size)
+                    kernel_seconds += outcome.seconds
+                n_threads = threads.most
                 store.finish()
         failures = store.failures
     seconds = perf_counter() - start
-    return Summary(n_computed, n_points, failures, seconds, kernel_seconds, n_threads)
+    return Summary(Size.total(computed), kind.units, failures, seconds, kernel_seconds, n_threads)
 
 
-def compute(client: Client, store: Store, listener: Listener) -> Iterator[Outcome]:
+def compute(
+    client: Client, threads: Threads, store: Store, listener: Listener
+) -> Iterator[Outcome]:
     """Compute the unfinished tasks of a store on a cluster, and keep what comes back.
 
     Parameters
     ----------
     client : distributed.Client
         The cluster.
+    threads : Threads
+        Of its workers; counted while this goes on.
     store : Store
         Gives the tasks and takes their outcomes.
     listener : Listener
@@ -147,33 +181,36 @@ def compute(client: Client, store: Store, listener: Listener) -> Iterator[Outcom
     outcome : Outcome
         As they are kept; of failures the last.
     """
-    n_threads, counted = _n_threads(client), monotonic()
+    kind, design = store.kind, store.design
     unfinished = store.unfinished
-    batches = _batches(unfinished, max(n_threads, 1))
-    again: deque[Task] = deque()
-    attempts: Counter[Task] = Counter()
+    sizes = {task: kind.size_of(task, design) for task in store.tasks}
+    batches = _batches([(task, sizes[task].work) for task in unfinished], max(threads.now, 1))
+    again: deque[Any] = deque()
+    attempts: Counter[Any] = Counter()
     under_way: dict[Future, Batch] = {}
     # Typed Any because this class of distributed has no annotations.
     arrivals: Any = cast(Any, as_completed)(loop=client.loop, with_results=True, raise_errors=False)
+    begun = not unfinished
     while True:
-        while len(under_way) < _AHEAD * max(n_threads, 1):
+        while len(under_way) < _AHEAD * max(threads.now, 1):
             batch = [again.popleft()] if again else next(batches, None)
             if batch is None:
                 break
             # Not pure: a name of its own, whatever else runs at this scheduler.
-            future = client.submit(perform_batch, batch, store.design, pure=False)
+            future = client.submit(perform_batch, batch, kind, design, pure=False)
             under_way[future] = batch
             arrivals.add(future)
-        if unfinished:
-            listener.begin(unfinished, store.design.n_tasks)
-            unfinished = []
+        if not begun:
+            todo = Size.total([sizes[task] for task in unfinished])
+            listener.begin(kind.units, todo, Size.total(list(sizes.values())))
+            begun = True
         if not under_way:
             return
         arrived = arrivals.next_batch(block=False)
         for future, result in arrived:
-            outcomes = _outcomes_of(future, result, under_way.pop(future))
+            batch = under_way.pop(future)
             final = []
-            for outcome in outcomes:
+            for outcome in _outcomes_of(future, result, batch, kind, design):
                 attempts[outcome.task] += 1
                 if outcome.error is None or attempts[outcome.task] >= ATTEMPTS:
                     final.append(outcome)
@@ -184,49 +221,53 @@ def compute(client: Client, store: Store, listener: Listener) -> Iterator[Outcom
             raise RunStoppedError(_LOST)
         if not arrived:
             sleep(_POLL_SECONDS)
-        if monotonic() - counted > _RECOUNT_SECONDS:
-            before, n_threads, counted = n_threads, _n_threads(client), monotonic()
-            if before and not n_threads:
-                listener.note("There are no workers any more; waiting for new ones.")
+        if threads.count():
+            listener.note("There are no workers any more; waiting for new ones.")
 
 
-def perform_batch(tasks: Sequence[Task], design: Design) -> list[Outcome]:
+def perform_batch(tasks: Sequence[Any], kind: Kind, design: Any) -> list[Outcome]:  # noqa: ANN401 - of the kind's own type
     """Perform tasks one after the other on a worker; an error is the outcome of its task alone."""
     worker = get_worker().address
     outcomes = []
     for task in tasks:
         try:
-            outcome = experiment.perform(task, design)
+            outcome = kind.perform(task, design)
         except Exception as error:
-            outcome = Outcome(task, error=_in_words(error))
+            outcome = kind.failed(task, design, _in_words(error))
         outcomes.append(replace(outcome, worker=worker))
     return outcomes
 
 
-def _batches(tasks: Sequence[Task], n_threads: int) -> Iterator[Batch]:
-    """Divide tasks into batches, the largest tasks first."""
-    remaining = sum(task.n_points for task in tasks)
+def _batches(tasks: Sequence[tuple[Any, int]], n_threads: int) -> Iterator[Batch]:
+    """Divide tasks, each with its work, into batches, the largest tasks first."""
+    remaining = sum(work for _, work in tasks)
     batch: Batch = []
     in_batch = 0
-    limit = min(BATCH_POINTS, remaining // (_LAST_SHARE * n_threads))
-    for task in sorted(tasks, key=lambda task: -task.n_points):
-        if batch and in_batch + task.n_points > limit:
+    limit = min(BATCH_WORK, remaining // (_LAST_SHARE * n_threads))
+    for task, work in sorted(tasks, key=lambda entry: -entry[1]):
+        if batch and in_batch + work > limit:
             yield batch
             remaining -= in_batch
-            limit = min(BATCH_POINTS, remaining // (_LAST_SHARE * n_threads))
+            limit = min(BATCH_WORK, remaining // (_LAST_SHARE * n_threads))
             batch, in_batch = [], 0
         batch.append(task)
-        in_batch += task.n_points
+        in_batch += work
     if batch:
         yield batch
 
 
-def _outcomes_of(future: Future, result: object, batch: Batch) -> list[Outcome]:
+def _outcomes_of(
+    future: Future,
+    result: object,
+    batch: Batch,
+    kind: Kind,
+    design: Any,  # noqa: ANN401 - of the kind's own type
+) -> list[Outcome]:
     if future.status == "finished":
         return cast(list[Outcome], result)
     if future.status == "error":
         _, error, _ = cast(tuple[type, BaseException, object], result)
-        return [Outcome(task, error=_in_words(error)) for task in batch]
+        return [kind.failed(task, design, _in_words(error)) for task in batch]
     raise RunStoppedError(_LOST)
 
 
@@ -235,7 +276,3 @@ def _in_words(error: BaseException) -> str:
     if isinstance(error, KilledWorker):
         return "KilledWorker: the workers that computed it died"
     return f"{type(error).__name__}: {error}"
-
-
-def _n_threads(client: Client) -> int:
-    return sum(cast(Any, client).nthreads().values())

@@ -9,7 +9,7 @@ from playwright.sync_api import Browser, Page, sync_playwright
 from tiny_runs import DESIGN, store_run
 
 from reports.study_page.page import write_report
-from study.run.experiment import perform
+from study.run.triangulations import TRIANGULATIONS
 
 CHROMIUM = Path("/usr/bin/chromium")
 _FLAGS = [
@@ -26,7 +26,7 @@ _FLAGS = [
 
 @pytest.fixture(scope="session")
 def run_directory(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return store_run(tmp_path_factory.mktemp("results") / "run", DESIGN, perform)
+    return store_run(tmp_path_factory.mktemp("results") / "run", DESIGN, TRIANGULATIONS.perform)
 
 
 @pytest.fixture(scope="session")

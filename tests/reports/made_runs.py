@@ -74,8 +74,7 @@ def histogram_of(sizes: dict[int, int]) -> Callable:
 @cache
 def run(name: str) -> Results:
     """One of the made runs, by what is special about it."""
-    results, histograms, regions = CHANGES[name]
-    return drawn(DESIGN, results=results, histograms=histograms, regions=regions)
+    return drawn(DESIGN, **CHANGES[name])
 
 
 @cache
@@ -96,10 +95,6 @@ def geometric(histograms: Frame) -> Frame:
         drawn_sizes = zip(sizes.tolist(), counts.tolist(), strict=True)
         rows += [{**key, "lepp_size": s, "count": c} for s, c in drawn_sizes if c]
     return pd.DataFrame(rows)
-
-
-def same(frame: Frame) -> Frame:
-    return frame
 
 
 def out_of_bounds(results: Frame) -> Frame:
@@ -123,9 +118,9 @@ def moments(**factors: float) -> Callable:
     return change
 
 
-def poor_points(results: Frame) -> Frame:
-    low = results["replicate"] % 2 == 0
-    return results.assign(**{c: results[c].where(~low, 0.001) for c in ("runs_p_x", "ks_p_y")})
+def poor_points(sets: Frame) -> Frame:
+    low = sets["replicate"] % 2 == 0
+    return sets.assign(**{c: sets[c].where(~low, 0.001) for c in ("runs_p_x", "ks_p_y")})
 
 
 def large_regions(regions: Frame) -> Frame:
@@ -137,27 +132,30 @@ UNEVEN = {1: 10, 2: 600, 3: 800, 4: 150, 5: 250, 6: 200}
 FALLING = {1: 10, 2: 900, 3: 300, 4: 160, 5: 100, 6: 80, 9: 400}
 SHORT = {1: 10, 2: 1200, 3: 600, 4: 150, 5: 30, 6: 6}
 
-CHANGES: dict[str, tuple[Callable, Callable, Callable]] = {
-    "drawn": (same, same, same),
-    "level": (with_means(level), same, same),
-    "growing": (with_means(growing), same, same),
-    "falling": (with_means(falling), same, large_regions),
-    "narrowing": (with_means(growing, lambda n: 40 / n), same, same),
-    "widening": (with_means(level, lambda n: n / 1e6), same, same),
-    "low p": (with_shares(0.30), histogram_of(LONG), same),
-    "high p": (with_shares(0.50), histogram_of(SHORT), same),
-    "rare long paths": (with_shares(0.50), histogram_of(SHORT | {9: 8}), same),
-    "constant rates": (same, geometric, same),
-    "out of bounds": (out_of_bounds, same, same),
-    "Theorem 1": (moments(mean_lepp=1.001, sd_lepp=0.999), same, same),
-    "above Theorem 1": (
-        moments(mean_lepp=1.2, sd_lepp=1.3, skewness_lepp=1.1, kurtosis_lepp=1.1), same, same,
-    ),
-    "mixed Theorem 1": (moments(mean_lepp=1.05, sd_lepp=0.9), same, same),
-    "uneven rates": (same, histogram_of(UNEVEN), same),
-    "falling rates": (same, histogram_of(FALLING), same),
-    "straight": (with_means(lambda n: 3.0 + n / 1e5 + 5e-4 * np.cos(n)), same, same),
-    "bent": (with_means(lambda n: 3.1 - 0.05 * np.cos(n / 1500)), same, same),
-    "near 4": (with_means(lambda n: 3.99 + 0 * n, lambda n: 0.05 + 0 * n), same, same),
-    "poor points": (poor_points, same, same),
-}  # fmt: skip
+CHANGES: dict[str, dict[str, Callable]] = {
+    "drawn": {},
+    "level": {"results": with_means(level)},
+    "growing": {"results": with_means(growing)},
+    "falling": {"results": with_means(falling), "regions": large_regions},
+    "narrowing": {"results": with_means(growing, lambda n: 40 / n)},
+    "widening": {"results": with_means(level, lambda n: n / 1e6)},
+    "low p": {"results": with_shares(0.30), "histograms": histogram_of(LONG)},
+    "high p": {"results": with_shares(0.50), "histograms": histogram_of(SHORT)},
+    "rare long paths": {
+        "results": with_shares(0.50),
+        "histograms": histogram_of(SHORT | {9: 8}),
+    },
+    "constant rates": {"histograms": geometric},
+    "uneven rates": {"histograms": histogram_of(UNEVEN)},
+    "falling rates": {"histograms": histogram_of(FALLING)},
+    "out of bounds": {"results": out_of_bounds},
+    "near 4": {"results": with_means(lambda n: 3.99 + 0 * n, lambda n: 0.05 + 0 * n)},
+    "Theorem 1": {"results": moments(mean_lepp=1.001, sd_lepp=0.999)},
+    "above Theorem 1": {
+        "results": moments(mean_lepp=1.2, sd_lepp=1.3, skewness_lepp=1.1, kurtosis_lepp=1.1)
+    },
+    "mixed Theorem 1": {"results": moments(mean_lepp=1.05, sd_lepp=0.9)},
+    "straight": {"results": with_means(lambda n: 3.0 + n / 1e5 + 5e-4 * np.cos(n))},
+    "bent": {"results": with_means(lambda n: 3.1 - 0.05 * np.cos(n / 1500))},
+    "poor points": {"point_sets": poor_points},
+}

@@ -11,6 +11,7 @@ from reports.page.evidence import Evidence
 from reports.study_page import gather, sections
 from study.design.design import Design
 from study.results.store import Results
+from study.run.triangulations import TRIANGULATIONS
 
 Change = Callable[[pd.DataFrame], pd.DataFrame]
 
@@ -60,12 +61,10 @@ def page_text(results: Results) -> PageText:
 
 def drawn(design: Design, **changes: Change) -> Results:
     """Results drawn from a generator, with some of their frames changed."""
-    names = ("results", "histograms", "regions")
+    names = ("results", "histograms", "regions", "point_sets")
     made = dict(zip(names, frames(design), strict=True))
     for name, change in changes.items():
         made[name] = change(made[name])
-    complete = len(made["results"]) == design.n_tasks
+    complete = len(made["results"]) == design.n_triangulations
     manifest = {"complete": complete, "environments": []}
-    return Results(
-        **made, timings=pd.DataFrame(), manifest=manifest, design=design, complete=complete
-    )
+    return Results(made, manifest, TRIANGULATIONS, design, complete)

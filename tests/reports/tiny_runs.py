@@ -8,7 +8,8 @@ import numpy as np
 from lepp import METHODS, Method
 from study.design.design import Design
 from study.results.store import Store
-from study.run.experiment import Outcome, Task, tasks_of
+from study.run.kinds import Outcome
+from study.run.triangulations import TRIANGULATIONS, Task
 
 DESIGN = Design(
     methods=tuple(METHODS),
@@ -54,9 +55,9 @@ def store_run(
     directory: Path, design: Design, outcome_of: Callable[[Task, Design], Outcome | None]
 ) -> Path:
     """Run a design in this process; a task without an outcome leaves the run unfinished."""
-    outcomes = [outcome_of(task, design) for task in tasks_of(design)]
+    outcomes = [outcome_of(task, design) for task in TRIANGULATIONS.tasks_of(design)]
     done = [outcome for outcome in outcomes if outcome is not None]
-    with Store(directory, design) as store:
+    with Store(directory, TRIANGULATIONS, design) as store:
         store.add(done)
         if len(done) == len(outcomes):
             store.finish()

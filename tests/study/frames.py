@@ -4,10 +4,14 @@ import numpy as np
 import pandas as pd
 
 from study.design.design import Design
+from study.run.measures import columns_of
+from study.run.point_checks import PointChecks
+from study.run.triangulations import Measures, Task
 
-REALS = ["mean_lepp", "sd_lepp", "skewness_lepp", "kurtosis_lepp"]
-REALS += ["runs_p_x", "runs_p_y", "ks_p_x", "ks_p_y"]
-KEY = ["method", "distribution", "n_points", "replicate"]
+MEASURES = columns_of(Measures)
+CHECKS = columns_of(PointChecks)
+SET = list(Task._fields)
+KEY = ["method", *SET]
 
 
 def design(**changes):
@@ -31,7 +35,7 @@ def long_counts(key, name, counts):
 
 
 def frames(design, seed=0):
-    """Results, histograms and regions: sizes drawn from near-geometric laws."""
+    """Results, histograms, regions and point sets: sizes drawn from near-geometric laws."""
     results, histograms, regions = [], [], []
     for method in design.methods:
         share_c = {"incremental": 0.486, "delaunay": 0.303}[method]
@@ -57,7 +61,8 @@ def frames(design, seed=0):
                     histograms += long_counts(key, "lepp_size", counts)
                     regions += long_counts(key, "region_size", region)
                     results.append(
-                        dict(zip(KEY, key, strict=True))
+                        dict.fromkeys(column.name for column in MEASURES)
+                        | dict(zip(KEY, key, strict=True))
                         | {
                             "n_triangles": m,
                             "n_hull": hull,
@@ -73,26 +78,39 @@ def frames(design, seed=0):
                             "n_type_c": type_c,
                             "n_regions": ends,
                             "max_region": len(region) - 1,
-                            **dict(zip(REALS[4:], rng.random(4), strict=True)),
+                            "n_equal_longest": 0,
+                            "n_nearly_equal_longest": 0,
                             "error": None,
                         }
                     )
     count_columns = {name: [*KEY, name, "count"] for name in ("lepp_size", "region_size")}
     return (
-        pd.DataFrame(results),
+        pd.DataFrame(results)[[*KEY, *(column.name for column in MEASURES), "error"]],
         pd.DataFrame(histograms, columns=count_columns["lepp_size"]),
         pd.DataFrame(regions, columns=count_columns["region_size"]),
+        _point_sets(design, seed),
     )
+
+
+def _point_sets(design, seed):
+    """p-values of the checks, uniform as those of random points."""
+    sets = [
+        (distribution, n, replicate)
+        for distribution in design.distributions
+        for n in design.sizes
+        for replicate in range(design.repetitions)
+    ]
+    values = np.random.default_rng((seed, 1)).random((len(sets), len(CHECKS)))
+    checks = pd.DataFrame(values, columns=[column.name for column in CHECKS])
+    return pd.concat([pd.DataFrame(sets, columns=SET), checks], axis=1)
 
 
 def failed(results, rows, error="InputError: all points lie on one line"):
     """The results with some rows as a failed task leaves them."""
     results = results.copy()
-    measured = [name for name in results.columns if name not in (*KEY, "error")]
-    for name in measured:
-        kind = "float64" if name in REALS else "Int64"
-        results[name] = results[name].astype(kind)
-    results.loc[rows, measured] = pd.NA
+    for column in MEASURES:
+        results[column.name] = results[column.name].astype(column.dtype.replace("int", "Int"))
+    results.loc[rows, [column.name for column in MEASURES]] = pd.NA
     results["error"] = results["error"].astype(object)
     results.loc[rows, "error"] = error
     return results

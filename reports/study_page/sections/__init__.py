@@ -41,7 +41,7 @@ def all_sections(evidence: Evidence) -> list[Section]:
 def description(evidence: Evidence) -> str:
     """Say in a sentence what was studied."""
     overview = evidence.rows(OVERVIEW)
-    done, asked = int(overview["triangulations"].sum()), evidence.design.n_tasks
+    done, asked = int(overview["triangulations"].sum()), evidence.design.n_triangulations
     made = (
         count(done, "random triangulation")
         if done == asked

@@ -30,7 +30,7 @@ def _design(evidence: Evidence) -> Facts:
         ("Numbers of points", _sizes(design.sizes)),
         ("Repetitions", f"{design.repetitions:,} point sets for each distribution and size"),
         ("Seed", str(design.seed)),
-        ("Triangulations", f"{design.n_tasks:,} of {design.n_points:,} points in all"),
+        ("Triangulations", f"{design.n_triangulations:,} of {design.n_points:,} points in all"),
     ]
     if "bivariate_normal" in design.distributions:
         facts.append(("Correlation of x and y", f"{design.correlation:g} (bivariate normal)"))

@@ -1,16 +1,20 @@
+import errno
 import os
 import subprocess
 import sys
 from contextlib import contextmanager
 from pathlib import Path
+from time import sleep
 
 import pytest
 from click.testing import CliRunner
 from distributed import Client, LocalCluster
+from tiny_runs import store_run
 
 from reports.cli.main import main
-from study.results.store import load
-from study.run import experiment
+from study.design.design import Design
+from study.results.store import Store, load
+from study.run.triangulations import TRIANGULATIONS, Triangulations
 
 SETTINGS = "sizes = [200, 400, 800]\nrepetitions = 4\nseed = 3\n"
 
@@ -27,7 +31,7 @@ def threads(monkeypatch):
     """The local cluster of a run, in threads of this process."""
 
     @contextmanager
-    def connect(design, workers, scheduler):
+    def connect(kind, design, workers, scheduler, note):
         with (
             LocalCluster(
                 n_workers=1,
@@ -75,32 +79,139 @@ def test_a_run_from_the_shell_ends_with_a_report_and_a_second_computes_nothing(t
 
 
 def test_failed_tasks_are_told_and_tried_again(tmp_path, config, threads, monkeypatch):
-    perform = experiment.perform
+    perform = Triangulations.perform
 
-    def failing(task, design):
+    def failing(self, task, design):
         if task.distribution == "normal" and task.n_points < 800:
             raise MemoryError("no room")
-        return perform(task, design)
+        return perform(self, task, design)
 
-    monkeypatch.setattr(experiment, "perform", failing)
+    monkeypatch.setattr(Triangulations, "perform", failing)
     result = lepp_study("run", tmp_path / "out", "--config", config)
     assert result.exit_code == 3, result.output
     assert "8 tasks failed; the same command tries them again:" in result.output
-    assert "incremental normal 200 0: MemoryError: no room" in result.output
+    assert "  normal 200 0: MemoryError: no room" in result.output
     assert "and 3 more" in result.output
     assert (tmp_path / "out" / "report.html").exists()
 
-    monkeypatch.setattr(experiment, "perform", perform)
+    monkeypatch.setattr(Triangulations, "perform", perform)
     result = lepp_study("run", tmp_path / "out")
     assert result.exit_code == 0, result.output
     assert "8 triangulations to compute, 2,400 points, 40 of 48 are there" in result.output
     assert load(tmp_path / "out").manifest["failed"] == 0
 
 
+def test_a_run_of_which_every_task_fails_ends_with_the_list(tmp_path, config, threads, monkeypatch):
+    def fail(self, task, design):
+        raise MemoryError("no room")
+
+    monkeypatch.setattr(Triangulations, "perform", fail)
+    for _ in range(2):  # the second tries them again
+        result = lepp_study("run", tmp_path / "out", "--config", config)
+        assert result.exit_code == 3, result.output
+        assert "48 triangulations, 22,400 points, in" in result.output
+        assert "48 tasks failed; the same command tries them again:" in result.output
+        assert "and 43 more" in result.output
+        assert "own time" not in result.output
+
+
+def test_a_failure_that_stays_ends_with_the_list_again(tmp_path, config, threads, monkeypatch):
+    perform = Triangulations.perform
+
+    def failing(self, task, design):
+        if task.replicate == 0 and task.n_points == 400:
+            raise MemoryError("no room")
+        return perform(self, task, design)
+
+    monkeypatch.setattr(Triangulations, "perform", failing)
+    for _ in range(2):
+        result = lepp_study("run", tmp_path / "out", "--config", config)
+        assert result.exit_code == 3, result.output
+        assert "4 tasks failed" in result.output
+    assert "44 of 48 are there" in result.output
+
+
+def test_workers_that_leave_at_the_end_are_no_failure(tmp_path, config, monkeypatch):
+    @contextmanager
+    def connect(kind, design, workers, scheduler, note):
+        with (
+            LocalCluster(
+                n_workers=1,
+                processes=False,
+                dashboard_address=None,
+                scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
+            ) as cluster,
+            Client(cluster) as client,
+        ):
+            finish = Store.finish
+
+            def leave(store):
+                cluster.scale(0)
+                while client.nthreads():
+                    sleep(0.01)
+                finish(store)
+
+            monkeypatch.setattr(Store, "finish", leave)
+            yield client
+
+    monkeypatch.setattr("study.run.runner.connect", connect)
+    result = lepp_study("run", tmp_path / "out", "--config", config)
+    assert result.exit_code == 0, result.output
+    assert "48 triangulations, 22,400 points, in" in result.output
+
+
+@pytest.fixture
+def results(tmp_path):
+    design = Design.from_settings({"sizes": [50], "repetitions": 1, "distributions": ["uniform"]})
+    return store_run(tmp_path / "results", design, TRIANGULATIONS.perform)
+
+
+def test_a_report_that_cannot_be_written_is_one_sentence(results, monkeypatch):
+    (results / "tables").touch()
+    result = lepp_study("report", results)
+    assert (result.exit_code, result.output.count("\n")) == (2, 1)
+    assert result.output.startswith(f"Error: Cannot write {results / 'tables'}: File exists")
+    (results / "tables").unlink()
+
+    def full(*_):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(os, "fsync", full)
+    result = lepp_study("report", results)
+    assert (result.exit_code, result.output.count("\n")) == (2, 1)
+    assert result.output.endswith(": No space left on device.\n")
+    assert not (results / "report.html").exists()
+
+
+def test_a_design_that_does_not_fit_leaves_no_directory(tmp_path):
+    config = tmp_path / "huge.toml"
+    config.write_text("sizes = [268_000_000]\nrepetitions = 1\n")
+    result = lepp_study("run", tmp_path / "out", "--config", config, "--workers", "1000")
+    assert result.exit_code == 2
+    assert "A triangulation of 268,000,000 points takes about" in result.output
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_reader_that_goes_away_gets_no_traceback(results):
+    code = "from reports.cli.main import main; main()"
+    read, write = os.pipe()
+    os.close(read)
+    done = subprocess.run(
+        [sys.executable, "-c", code, "report", str(results)],
+        stdout=write,
+        stderr=subprocess.PIPE,
+        text=True,
+        check=False,
+    )
+    os.close(write)
+    assert done.stderr == ""
+    assert (results / "report.html").exists()
+
+
 def test_an_interrupted_run_says_how_to_go_on(tmp_path, config, threads, monkeypatch):
     advance = "reports.cli.progress.PlainProgress.advance"
 
-    def interrupt(self, outcome):
+    def interrupt(self, outcome, size):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(advance, interrupt)
@@ -108,7 +219,7 @@ def test_an_interrupted_run_says_how_to_go_on(tmp_path, config, threads, monkeyp
     assert result.exit_code == 130
     assert "is kept in" in result.output
     assert "the same command goes on from there" in result.output
-    assert 0 < len(load(tmp_path / "out").results) < 48
+    assert 0 < len(load(tmp_path / "out")["results"]) < 48
 
 
 @pytest.mark.parametrize(

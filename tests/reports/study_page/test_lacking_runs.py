@@ -7,7 +7,8 @@ from tiny_runs import store_run
 
 from reports.study_page.page import write_report
 from study.design.design import Design
-from study.run.experiment import Outcome, Task, perform
+from study.run.kinds import Outcome
+from study.run.triangulations import TRIANGULATIONS, Task
 
 SMALL = Design(distributions=("uniform", "exponential"), sizes=(200, 400), repetitions=4)
 ERROR = "ValueError: <script>alert(1)</script> & more"
@@ -19,7 +20,7 @@ def text_of(directory: Path) -> str:
 
 def test_unfinished_run_says_how_much_is_missing(tmp_path: Path) -> None:
     def half(task: Task, design: Design) -> Outcome | None:
-        return perform(task, design) if task.replicate < 2 else None
+        return TRIANGULATIONS.perform(task, design) if task.replicate < 2 else None
 
     text = text_of(store_run(tmp_path / "run", SMALL, half))
     assert "What is missing" in text
@@ -37,8 +38,8 @@ def test_run_without_any_result_has_a_report(tmp_path: Path) -> None:
 def test_failed_tasks_are_named_and_their_errors_escaped(tmp_path: Path) -> None:
     def failing(task: Task, design: Design) -> Outcome:
         if task.distribution == "exponential" and task.replicate == 0:
-            return Outcome(task, error=ERROR)
-        return perform(task, design)
+            return TRIANGULATIONS.failed(task, design, ERROR)
+        return TRIANGULATIONS.perform(task, design)
 
     directory = store_run(tmp_path / "run", SMALL, failing)
     text = text_of(directory)
@@ -57,7 +58,7 @@ def test_what_cannot_be_computed_is_said(
     tmp_path: Path, sizes: tuple[int, ...], repetitions: int, lacking: str
 ) -> None:
     design = Design(distributions=("uniform",), sizes=sizes, repetitions=repetitions)
-    text = text_of(store_run(tmp_path / "run", design, perform))
+    text = text_of(store_run(tmp_path / "run", design, TRIANGULATIONS.perform))
     alarm = text[text.index("What is missing") : text.index("</ul>")]
     assert lacking in alarm
 

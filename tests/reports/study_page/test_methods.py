@@ -17,7 +17,7 @@ from reports.study_page.page import write_report
 from reports.study_page.sections import agreement, methods, summary
 from study.analysis.method_comparison import GROWTH, MEAN_LEPP, METHODS_COMPARED
 from study.design.design import Design
-from study.run.experiment import perform
+from study.run.triangulations import TRIANGULATIONS
 
 
 @pytest.fixture(autouse=True)
@@ -27,7 +27,9 @@ def more_methods(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def run_by(directory: Path, *names: str) -> Path:
-    return store_run(directory / "run", SMALL.model_copy(update={"methods": names}), perform)
+    return store_run(
+        directory / "run", SMALL.model_copy(update={"methods": names}), TRIANGULATIONS.perform
+    )
 
 
 def prose(evidence: Evidence) -> str:

@@ -1,5 +1,6 @@
 import csv
 import io
+import json
 import re
 from html.parser import HTMLParser
 from itertools import pairwise
@@ -170,19 +171,29 @@ def test_a_report_fits_into_its_bytes(report: Path) -> None:
 
 
 def test_same_results_give_the_same_bytes(report: Path, tmp_path: Path) -> None:
-    from study.run.experiment import perform
+    from study.run.triangulations import TRIANGULATIONS
 
-    again = write_report(store_run(tmp_path / "again", DESIGN, perform))
+    again = write_report(store_run(tmp_path / "again", DESIGN, TRIANGULATIONS.perform))
     assert again.read_bytes() == report.read_bytes()
     for path in sorted(report.parent.glob("tables/*.csv")):
         assert (again.parent / "tables" / path.name).read_bytes() == path.read_bytes()
 
 
-def test_a_new_report_removes_what_an_older_one_left(report: Path) -> None:
-    old = report.parent / "tables" / "of_an_older_version.csv"
-    old.write_text("a\n1\n")
+def test_a_new_report_removes_what_an_older_one_wrote_and_nothing_else(report: Path) -> None:
+    tables = report.parent / "tables"
+    written = tables / ".lepp-study.json"
+    old, users = tables / "of_an_older_version.csv", tables / "my_notes.csv"
+    for path in (old, users, report.parent / "kept.csv"):
+        path.write_text("a\n1\n")
+    names = json.loads(written.read_text())["tables"]
+    written.write_text(json.dumps({"tables": [*names, old.name, "../kept.csv"]}))
     before = report.read_bytes()
     write_report(report.parent)
     assert not old.exists()
+    assert users.exists()
+    assert (report.parent / "kept.csv").exists()
+    assert json.loads(written.read_text())["tables"] == names
+    users.unlink()
+    (report.parent / "kept.csv").unlink()
     assert report.read_bytes() == before
     assert not list(report.parent.glob(".*.html*"))

@@ -16,7 +16,7 @@ BASES = {
 
 
 def observations(name, method="incremental"):
-    results = run(name).results
+    results = run(name)["results"]
     results = results[results["method"] == method]
     return results["n_points"].to_numpy() / 1000, results["mean_lepp"].to_numpy()
 

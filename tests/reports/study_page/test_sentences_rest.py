@@ -18,7 +18,7 @@ ONE = DESIGN.model_copy(update={"methods": ("incremental",)})
 
 
 def by_method(name, column, n=8000):
-    results = run(name).results
+    results = run(name)["results"]
     results = results[results["n_points"] == n]
     return [results.loc[results["method"] == m, column].to_numpy(float) for m in METHODS]
 
@@ -75,7 +75,7 @@ def test_growth_of_methods():
 def test_paths_of_methods(name):
     rates, tails = [], []
     for method, word in METHODS.items():
-        frame = run(name).histograms
+        frame = run(name)["histograms"]
         frame = frame[frame["method"] == method]
         counts = np.bincount(frame["lepp_size"], frame["count"])
         reached = counts[::-1].cumsum()[::-1]
@@ -102,13 +102,14 @@ def paper_run(shift=0.0, factor=1.0) -> PageText:
     rows = []
     for triangles, largest, mean, sd in published.table_4():
         middle = mean.value + shift * sd.value / np.sqrt(20)
-        group = small.results.assign(
+        group = small["results"].assign(
             n_points=mean.n_points, mean_lepp=middle + factor * sd.value * scores
         )
         group["n_triangles"] = round(triangles.value) + np.repeat([-3, 3], 20)
         group["max_lepp"] = np.repeat([int(largest.value) - 1, int(largest.value) + 1], 20)
         rows.append(group)
-    return page_text(replace(small, results=pd.concat(rows, ignore_index=True), design=asked))
+    frames = small.frames | {"results": pd.concat(rows, ignore_index=True)}
+    return page_text(replace(small, frames=frames, design=asked))
 
 
 def test_scoreboard_counts_what_agrees():

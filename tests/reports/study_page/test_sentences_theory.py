@@ -7,7 +7,7 @@ from scipy import stats
 
 
 def rows(name, method="incremental"):
-    results = run(name).results
+    results = run(name)["results"]
     return results[results["method"] == method]
 
 
@@ -18,7 +18,7 @@ def shares(name, column="n_type_c", method="incremental"):
 
 def pooled(name, method="incremental"):
     """Counts of LEPP sizes of all triangulations together, by size."""
-    frame = run(name).histograms
+    frame = run(name)["histograms"]
     frame = frame[frame["method"] == method]
     return np.bincount(frame["lepp_size"], frame["count"])
 
@@ -156,7 +156,7 @@ def test_rates_rise_fall_or_are_constant():
 def test_the_law_of_sizes():
     for name, rarer in (("high p", True), ("low p", None)):
         counts = pooled(name)
-        total = run(name).results.query("method == 'incremental'")
+        total = run(name)["results"].query("method == 'incremental'")
         p = total["n_type_c"].sum() / total["n_interior_longest"].sum()
         common = counts[2:].argmax() + 2
         said = page(name).finding("figure-law")
@@ -174,7 +174,7 @@ def test_the_law_of_sizes():
                 f"Sizes of 8 and more are {times:.1f} times as common as in the law."
             )
     counts = pooled("rare long paths")
-    total = run("rare long paths").results.query("method == 'incremental'")
+    total = run("rare long paths")["results"].query("method == 'incremental'")
     p = total["n_type_c"].sum() / total["n_interior_longest"].sum()
     times = (1 - p) ** 6 / (counts[8:].sum() / counts.sum())
     assert times > 1

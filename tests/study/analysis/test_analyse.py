@@ -136,9 +136,9 @@ def test_one_group_of_equal_means_is_left_out():
 
 def test_everything_failed():
     asked = design()
-    results, histograms, regions = frames(asked)
+    results, histograms, regions, sets = frames(asked)
     results = failed(results, range(len(results)))
-    tables = analyse(results, histograms.iloc[:0], regions.iloc[:0], asked)
+    tables = analyse(results, histograms.iloc[:0], regions.iloc[:0], sets, asked)
     bytes_of(tables)
     assert tables["overview"].frame["failed"].tolist() == [24, 24]
     assert (tables["statements"].frame["holds"] == "not tested").all()
@@ -167,7 +167,7 @@ def test_means_of_four_and_more_have_no_logistic_model():
 
 def test_triangulations_of_one_triangle():
     asked = design(distributions=("uniform",), sizes=(3,), repetitions=4)
-    results, _, _ = frames(design(distributions=("uniform",), sizes=(1000,), repetitions=4))
+    results, *_, sets = frames(design(distributions=("uniform",), sizes=(1000,), repetitions=4))
     counted = {"n_triangles": 1, "n_hull": 3, "mean_lepp": 1.0, "sd_lepp": 0.0, "max_lepp": 1}
     counted |= dict.fromkeys(("n_interior_longest", "n_type_a", "n_type_b", "n_type_c"), 0)
     counted |= {"n_regions": 1, "max_region": 1, "n_points": 3}
@@ -175,7 +175,7 @@ def test_triangulations_of_one_triangle():
     results = results.assign(**counted)
     key = results[["method", "distribution", "n_points", "replicate"]]
     tables = analyse(
-        results, key.assign(lepp_size=1, count=1), key.assign(region_size=1, count=1), asked
+        results, key.assign(lepp_size=1, count=1), key.assign(region_size=1, count=1), sets, asked
     )
     bytes_of(tables)
     assert tables["groups"].frame["mean_lepp"].tolist() == [1.0]

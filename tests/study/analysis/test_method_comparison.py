@@ -102,7 +102,7 @@ def test_published_means_bear_out_the_published_statements(paper_study):
 
 def test_unequal_termination_rates_are_seen():
     asked = design(distributions=("uniform",), sizes=(8000, 16000), repetitions=10)
-    results, histograms, regions = frames(asked)
+    results, histograms, *others = frames(asked)
     # every tenth path of size 2 goes on to size 3
     counts = histograms.pivot_table(
         index=["n_points", "replicate"], columns="lepp_size", values="count"
@@ -112,5 +112,5 @@ def test_unequal_termination_rates_are_seen():
     changed.loc[changed["lepp_size"] == 2, "count"] -= changed["moved"]
     changed.loc[changed["lepp_size"] == 3, "count"] += changed["moved"]
     histograms = changed.drop(columns="moved")
-    tables = analyse(results, histograms, regions, asked)
+    tables = analyse(results, histograms, *others, asked)
     assert holds(tables, "incremental", "Every step of a path") == "no"

@@ -18,15 +18,14 @@ def test_points_of_several_methods_count_once(study):
 
 
 def test_share_and_interval_are_scipys(study):
-    _, (results, *_), tables = study
+    _, (*_, sets), tables = study
     row = (
         tables["randomness"]
         .frame.query("distribution == 'exponential' and coordinate == 'y'")
         .iloc[1]
     )
     assert row["test"] == "Kolmogorov-Smirnov"
-    chosen = (results["distribution"] == "exponential") & (results["method"] == "incremental")
-    p = results.loc[chosen, "ks_p_y"].to_numpy()
+    p = sets.loc[sets["distribution"] == "exponential", "ks_p_y"].to_numpy()
     below = sum(p < 0.05)
     interval = stats.binomtest(int(below), len(p)).proportion_ci(0.95, method="exact")
     assert row["below"] == below
@@ -42,9 +41,9 @@ def test_share_and_interval_are_scipys(study):
 
 def test_too_many_small_p_values_are_rejected():
     asked = design(repetitions=30)
-    results, *others = frames(asked)
-    results.loc[results["distribution"] == "uniform", "runs_p_x"] **= 4
-    frame = analyse(results, *others, asked)["randomness"].frame.set_index(
+    *others, sets = frames(asked)
+    sets.loc[sets["distribution"] == "uniform", "runs_p_x"] **= 4
+    frame = analyse(*others, sets, asked)["randomness"].frame.set_index(
         ["distribution", "test", "coordinate"]
     )
     assert frame.loc[("uniform", "runs", "x"), "verdict"] == "rejected"

@@ -77,7 +77,7 @@ def pooled(histograms, method, distribution):
 
 
 def test_termination_rates_are_those_of_the_pooled_histogram(study):
-    _, (_, histograms, _), tables = study
+    _, (_, histograms, *_), tables = study
     counts = pooled(histograms, "delaunay", "uniform")
     dense = counts.reindex(range(counts.index.max() + 1), fill_value=0).to_numpy()
     frame = tables["termination"].frame.query("method == 'delaunay' and distribution == 'uniform'")
@@ -88,7 +88,7 @@ def test_termination_rates_are_those_of_the_pooled_histogram(study):
 
 
 def test_law_is_the_share_beside_the_geometric(study):
-    _, (results, histograms, _), tables = study
+    _, (results, histograms, *_), tables = study
     frame = tables["law"].frame.query("method == 'incremental' and distribution == 'uniform'")
     counts = pooled(histograms, "incremental", "uniform")
     rows = results.query("method == 'incremental' and distribution == 'uniform'")
@@ -125,7 +125,7 @@ def test_regions_by_hand(study):
 
 
 def test_region_sizes_hold_every_triangle(study):
-    _, (results, _, _), tables = study
+    _, (results, *_), tables = study
     frame = tables["region_sizes"].frame
     for (method, distribution), found in frame.groupby(["method", "distribution"]):
         rows = results[(results["method"] == method) & (results["distribution"] == distribution)]

@@ -8,7 +8,7 @@ SMALL = {"sizes": [100, 200], "repetitions": 2}
 
 def test_paper_preset_is_the_published_design():
     paper = Design.from_preset("paper")
-    assert paper.n_tasks == 3200
+    assert paper.n_triangulations == 3200
     assert paper.n_points == 336_000_000
     assert paper.methods == ("incremental",)
     assert paper.sizes == tuple(range(10_000, 200_001, 10_000))

@@ -13,12 +13,27 @@ from distributed import Client, LocalCluster
 from lepp import InputError
 from study.design.design import Design
 from study.results.store import Store, load
-from study.run import experiment
-from study.run.experiment import Task, tasks_of
-from study.run.runner import ATTEMPTS, BATCH_POINTS, RunStoppedError, _batches, compute, run
+from study.run.kinds import Size
+from study.run.runner import (
+    ATTEMPTS,
+    BATCH_WORK,
+    RunStoppedError,
+    Threads,
+    _batches,
+    compute,
+    run,
+)
+from study.run.triangulations import TRIANGULATIONS, Triangulations
 
 DESIGN = Design.from_settings({"sizes": [500, 1000, 2000], "repetitions": 6, "seed": 5})
-FILES = ("results.parquet", "histograms.parquet", "regions.parquet", "manifest.json")
+TASKS = TRIANGULATIONS.tasks_of(DESIGN)
+FILES = (
+    "results.parquet",
+    "histograms.parquet",
+    "regions.parquet",
+    "point_sets.parquet",
+    "manifest.json",
+)
 
 
 class Heard:
@@ -27,10 +42,10 @@ class Heard:
     def __init__(self, act=None, after=1):
         self.tasks, self.notes, self.act, self.after = [], [], act, after
 
-    def begin(self, unfinished, n_tasks):
-        self.unfinished, self.n_tasks = list(unfinished), n_tasks
+    def begin(self, units, unfinished, whole):
+        self.units, self.unfinished, self.whole = units, unfinished, whole
 
-    def advance(self, outcome):
+    def advance(self, outcome, size):
         self.tasks.append(outcome.task)
         if self.act and len(self.tasks) == self.after:
             self.act()
@@ -56,12 +71,14 @@ def whole(tmp_path_factory):
     """What an undisturbed run with one worker leaves."""
     directory = tmp_path_factory.mktemp("whole") / "results"
     heard = Heard()
-    summary = run(directory, DESIGN, workers=1, listener=heard)
-    assert summary.n_computed == DESIGN.n_tasks
+    summary = run(directory, TRIANGULATIONS, DESIGN, workers=1, listener=heard)
+    assert summary.computed == Size(DESIGN.n_triangulations, DESIGN.n_points)
     assert summary.n_threads == 1
     assert 0 < summary.kernel_seconds < summary.seconds
-    assert sorted(heard.tasks) == sorted(heard.unfinished) == sorted(tasks_of(DESIGN))
-    assert load(directory).results["error"].isna().all()
+    assert heard.unfinished == heard.whole == summary.computed
+    assert heard.units == summary.units == ("triangulations", "points")
+    assert sorted(heard.tasks) == sorted(TASKS)
+    assert load(directory)["results"]["error"].isna().all()
     return directory
 
 
@@ -77,51 +94,52 @@ def threads():
 
 
 def test_batches_hold_every_task_once_the_largest_first():
-    tasks = tasks_of(Design.from_preset("paper"))
-    batches = list(_batches(tasks, 2))
+    tasks = TRIANGULATIONS.tasks_of(Design.from_preset("paper"))
+    batches = list(_batches([(task, task.n_points) for task in tasks], 2))
     flat = [task for batch in batches for task in batch]
     assert sorted(flat) == sorted(tasks)
     assert [t.n_points for t in flat] == sorted((t.n_points for t in tasks), reverse=True)
     points = [sum(task.n_points for task in batch) for batch in batches]
-    assert max(points) <= BATCH_POINTS
+    assert max(points) <= BATCH_WORK
     assert len(batches) < 250
-    assert max(points[-4:]) < BATCH_POINTS / 4
+    assert max(points[-4:]) < BATCH_WORK / 4
 
 
 def test_a_task_larger_than_a_batch_is_one():
-    tasks = [Task("incremental", "uniform", 3 * BATCH_POINTS, k) for k in range(3)]
-    assert list(_batches(tasks, 1)) == [[task] for task in tasks]
+    tasks = [(k, 3 * BATCH_WORK) for k in range(3)]
+    assert list(_batches(tasks, 1)) == [[0], [1], [2]]
 
 
 def test_a_failing_task_is_recorded_and_a_shaky_one_tried_again(
     threads, tmp_path, monkeypatch, whole
 ):
-    hopeless, shaky = tasks_of(DESIGN)[0], tasks_of(DESIGN)[40]
+    hopeless, shaky = TASKS[0], TASKS[40]
     tries = []
-    perform = experiment.perform
+    perform = Triangulations.perform
 
-    def sometimes(task, design):
+    def sometimes(self, task, design):
         tries.append(task)
         if task == hopeless or (task == shaky and tries.count(task) < ATTEMPTS):
             raise MemoryError("no room")
-        return perform(task, design)
+        return perform(self, task, design)
 
-    monkeypatch.setattr(experiment, "perform", sometimes)
+    monkeypatch.setattr(Triangulations, "perform", sometimes)
     heard = Heard()
-    with Store(tmp_path, DESIGN) as store:
-        outcomes = list(compute(threads, store, heard))
+    with Store(tmp_path, TRIANGULATIONS, DESIGN) as store:
+        outcomes = list(compute(threads, Threads(threads), store, heard))
         store.finish()
     assert tries.count(hopeless) == tries.count(shaky) == ATTEMPTS
-    assert len(tries) == DESIGN.n_tasks + 2 * (ATTEMPTS - 1)
+    assert len(tries) == len(TASKS) + 2 * (ATTEMPTS - 1)
     assert [o.task for o in outcomes if o.error] == [hopeless]
-    loaded = load(tmp_path)
-    assert loaded.results["error"].iloc[0] == "MemoryError: no room"
-    assert loaded.results["error"].notna().sum() == 1
+    results = load(tmp_path)["results"]
+    assert results["error"].iloc[0] == "MemoryError: no room"
+    assert results["error"].notna().sum() == 1
 
     # The next run tries only what failed, and ends with the same bytes as a run without failures.
     monkeypatch.undo()
-    with Store(tmp_path, DESIGN) as store:
-        assert [o.task for o in compute(threads, store, heard)] == [hopeless]
+    with Store(tmp_path, TRIANGULATIONS, DESIGN) as store:
+        again = compute(threads, Threads(threads), store, heard)
+        assert [o.task for o in again] == [hopeless]
         store.finish()
     assert contents(tmp_path) == contents(whole)
 
@@ -133,13 +151,13 @@ def test_two_workers_one_of_them_killed_leave_the_same_bytes(tmp_path, whole):
         victim.kill()
 
     heard = Heard(kill)
-    summary = run(tmp_path, DESIGN, workers=2, listener=heard)
-    assert sorted(heard.tasks) == sorted(tasks_of(DESIGN))
+    summary = run(tmp_path, TRIANGULATIONS, DESIGN, workers=2, listener=heard)
+    assert sorted(heard.tasks) == sorted(TASKS)
     assert summary.failures == []
     assert contents(tmp_path) == contents(whole)
     # Nothing is left to do, so no cluster is started.
-    again = run(tmp_path, DESIGN, scheduler="tcp://127.0.0.1:1", listener=heard)
-    assert again.n_computed == again.n_threads == 0
+    again = run(tmp_path, TRIANGULATIONS, DESIGN, scheduler="tcp://127.0.0.1:1", listener=heard)
+    assert again.computed == (0, 0) == (again.n_threads, 0)
     _, alive = psutil.wait_procs(worker_processes(), timeout=10)
     assert alive == []
 
@@ -147,14 +165,14 @@ def test_two_workers_one_of_them_killed_leave_the_same_bytes(tmp_path, whole):
 CLIENT = """
 import sys
 from pathlib import Path
-from test_runner import DESIGN, Heard, run
+from test_runner import DESIGN, TRIANGULATIONS, Heard, run
 
 class Printing(Heard):
-    def advance(self, outcome):
+    def advance(self, outcome, size):
         print(outcome.task, flush=True)
 
 if __name__ == "__main__":
-    run(Path(sys.argv[1]), DESIGN, workers=2, listener=Printing())
+    run(Path(sys.argv[1]), TRIANGULATIONS, DESIGN, workers=2, listener=Printing())
 """
 
 
@@ -187,10 +205,10 @@ def test_a_killed_run_goes_on_and_leaves_no_process(tmp_path, whole, number, aft
     assert alive == []
     loaded = load(tmp_path / "results")
     assert not loaded.complete
-    assert len(loaded.results) >= after
+    assert len(loaded["results"]) >= after
     heard = Heard()
-    run(tmp_path / "results", DESIGN, workers=1, listener=heard)
-    assert len(heard.tasks) == DESIGN.n_tasks - len(loaded.results)
+    run(tmp_path / "results", TRIANGULATIONS, DESIGN, workers=1, listener=heard)
+    assert len(heard.tasks) == len(TASKS) - len(loaded["results"])
     assert contents(tmp_path / "results") == contents(whole)
 
 
@@ -219,10 +237,10 @@ def test_a_scheduler_that_dies_keeps_what_is_finished(tmp_path, whole):
     with dask_program(*server) as scheduler, dask_program(*worker):
         heard = Heard(scheduler.kill)
         with pytest.raises(RunStoppedError, match="connection to the scheduler was lost"):
-            run(tmp_path / "results", DESIGN, scheduler=address, listener=heard)
+            run(tmp_path / "results", TRIANGULATIONS, DESIGN, scheduler=address, listener=heard)
     kept = load(tmp_path / "results")
-    assert 0 < len(kept.results) < DESIGN.n_tasks
-    run(tmp_path / "results", DESIGN, workers=1, listener=heard)
+    assert 0 < len(kept["results"]) < len(TASKS)
+    run(tmp_path / "results", TRIANGULATIONS, DESIGN, workers=1, listener=heard)
     assert contents(tmp_path / "results") == contents(whole)
 
 
@@ -230,4 +248,4 @@ def test_a_scheduler_that_does_not_answer_is_named(tmp_path, monkeypatch):
     monkeypatch.setattr("study.run.cluster.CONNECT_SECONDS", 1)
     for address in ("tcp://127.0.0.1:1", "127.0.0.1:1", "nonsense://x", ""):
         with pytest.raises(InputError, match="No scheduler answers at"):
-            run(tmp_path, DESIGN, scheduler=address, listener=Heard())
+            run(tmp_path, TRIANGULATIONS, DESIGN, scheduler=address, listener=Heard())
