@@ -1,8 +1,6 @@
 """The report: one HTML file that holds everything it needs, and the tables beside it as CSV."""
 
 import importlib.util
-import os
-import tempfile
 from functools import cache
 from pathlib import Path
 
@@ -10,6 +8,7 @@ from reports.page.assets import environment, static
 from reports.page.blocks import FigureBlock, Section
 from reports.page.data import ColumnIndex, compress, encode, table_data
 from reports.page.evidence import Evidence
+from reports.page.files import write_whole
 from reports.page.views import DISTRIBUTION_NAMES, METHOD_NAMES
 from reports.study_page import sections
 from reports.study_page.gather import gather
@@ -85,19 +84,6 @@ def write_tables(folder: Path, tables: dict[str, Table]) -> None:
     for old in sorted(folder.glob("*.csv")):
         if old.stem not in tables:
             old.unlink()
-
-
-def write_whole(path: Path, text: str) -> None:
-    """Write a file so that nobody ever sees half of it."""
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-        os.chmod(name, 0o644)
-        os.replace(name, path)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
 
 
 def _switches(evidence: Evidence) -> list[dict]:
