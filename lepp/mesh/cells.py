@@ -69,6 +69,12 @@ class Block:
         corners = {CellKind.TRIANGLE: 3, CellKind.QUAD: 4}.get(kind, 0)
         return kind if nodes >= corners else CellKind.OTHER
 
+    @property
+    def label(self) -> str:
+        """What to call its type: polygons of three or four corners are triangles or quads."""
+        is_polygon = cell_kind(self.name) is CellKind.POLYGON
+        return self.kind.value if is_polygon else self.name
+
     def __len__(self) -> int:
         return len(self.vertices)
 
@@ -161,7 +167,7 @@ def _problem(kind: str, chosen: list[int], blocks: Sequence[Block], remedy: Reme
     ids = np.concatenate([np.arange(first[k], first[k + 1]) for k in chosen])
     counts: dict[str, int] = {}
     for k in chosen:
-        counts[blocks[k].name] = counts.get(blocks[k].name, 0) + len(blocks[k])
+        counts[blocks[k].label] = counts.get(blocks[k].label, 0) + len(blocks[k])
     types = " and ".join(
         f"{count} cell{'s' if count > 1 else ''} of type {name}" for name, count in counts.items()
     )

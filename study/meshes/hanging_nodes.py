@@ -39,20 +39,17 @@ def hanging_nodes(triangulation: lepp.Triangulation) -> np.ndarray:
     radius = lengths[edge] / n_pieces[edge] / 2 * (1 + 1e-9) + 16 * np.finfo(float).eps
     tree = cKDTree(places[ids])
     counts = tree.query_ball_point(middle, radius, return_length=True)
-    hanging = []
-    for part in _parts(counts):
-        near = tree.query_ball_point(middle[part], radius[part])
-        point = ids[np.concatenate([np.asarray(some, int) for some in near])]
-        beside = np.repeat(edge[part], counts[part])
-        inside = _inside(points, start[beside], end[beside], point)
-        hanging.append(point[inside])
+    piece = np.arange(len(edge)) - first[edge]
+    ends = (piece == 0).astype(int) + (piece == n_pieces[edge] - 1)  # of the edge, in the ball
+    hanging = [np.empty(0, np.int64)]
+    for count in np.unique(counts[counts > ends]):
+        chosen = np.flatnonzero((counts == count) & (counts > ends))
+        for part in np.array_split(chosen, len(chosen) * int(count) // _CANDIDATES + 1):
+            near = tree.query(middle[part], k=[*range(1, count + 1)])[1]
+            point = ids[near.ravel()]
+            beside = np.repeat(edge[part], count)
+            hanging.append(point[_inside(points, start[beside], end[beside], point)])
     return np.unique(np.concatenate(hanging)).astype(np.int64)
-
-
-def _parts(counts: np.ndarray) -> list[np.ndarray]:
-    """Return indices in groups whose counts have a bounded sum each."""
-    group = np.cumsum(counts) // _CANDIDATES
-    return np.split(np.arange(len(counts)), np.flatnonzero(np.diff(group)) + 1)
 
 
 def _inside(points: np.ndarray, a: np.ndarray, b: np.ndarray, p: np.ndarray) -> np.ndarray:

@@ -40,8 +40,8 @@ class NearPoints:
 
 def near_points(triangulation: lepp.Triangulation) -> NearPoints:
     """Count the boundary points of a mesh that nearly agree with another."""
-    triangles, row_side = triangulation.triangles, np.nonzero(triangulation.neighbors < 0)
-    row, side = row_side
+    triangles = triangulation.triangles
+    row, side = np.nonzero(triangulation.neighbors < 0)
     ends = np.stack((triangles[row, (side + 1) % 3], triangles[row, (side + 2) % 3]))
     ids, place = np.unique(ends, return_inverse=True)
     if len(ids) < 2:
@@ -52,10 +52,10 @@ def near_points(triangulation: lepp.Triangulation) -> NearPoints:
     shortest = np.full(len(ids), np.inf)
     np.minimum.at(shortest, start, lengths)
     np.minimum.at(shortest, end, lengths)
-    places, same = np.unique(points, axis=0, return_inverse=True)
+    places, same = _distinct(points)
     if len(places) < 2:
         return NearPoints(0, None)
-    distances = cKDTree(places).query(places, k=2)[0][:, 1][same.ravel()]
+    distances = cKDTree(places).query(places, k=2)[0][:, 1][same]
     near = distances <= np.minimum(NEAR, _SHARE_OF_EDGE * shortest)
     if not near.any():
         return NearPoints(0, None)
@@ -91,9 +91,9 @@ def moved_together(points: np.ndarray, triangles: np.ndarray, within: float) -> 
             f"Points cannot be merged within {within:g} of the mesh's extent: give a share above 0 "
             f"and at most {MOST_MERGED:g}."
         )
-    used = np.unique(triangles)
+    used = _used(triangles, len(points))
     low, high = points[used].min(axis=0), points[used].max(axis=0)
-    places, same = np.unique(points[used], axis=0, return_inverse=True)
+    places, same = _distinct(points[used])
     tree = cKDTree(_scaled(places, low, high))
     if tree.count_neighbors(tree, within) > 2 * _MOST_PAIRS:
         raise lepp.InputError(
@@ -104,7 +104,7 @@ def moved_together(points: np.ndarray, triangles: np.ndarray, within: float) -> 
     graph = coo_array(
         (np.ones(len(pairs), bool), (pairs[:, 0], pairs[:, 1])), shape=(len(places), len(places))
     )
-    cluster = connected_components(graph, directed=False)[1][same.ravel()]
+    cluster = connected_components(graph, directed=False)[1][same]
     _, lowest = np.unique(cluster, return_index=True)  # used is ascending
     moved = points.copy()
     moved[used] = points[used[lowest[cluster]]]
@@ -113,8 +113,25 @@ def moved_together(points: np.ndarray, triangles: np.ndarray, within: float) -> 
 
 def unit_coordinates(points: np.ndarray, triangulation: lepp.Triangulation) -> np.ndarray:
     """Return points in units of the extent of a mesh, from its middle."""
-    used = triangulation.points[np.unique(triangulation.triangles)]
+    used = triangulation.points[_used(triangulation.triangles, len(triangulation.points))]
     return _scaled(points, used.min(axis=0), used.max(axis=0))
+
+
+def _used(triangles: np.ndarray, n_points: int) -> np.ndarray:
+    """Return the points that triangles use, ascending."""
+    used = np.zeros(n_points, bool)
+    used[triangles] = True
+    return np.flatnonzero(used)
+
+
+def _distinct(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the points that differ, and for each of the given ones which of them it is."""
+    order = np.lexsort(points.T)
+    new = np.ones(len(points), bool)
+    new[1:] = (points[order[1:]] != points[order[:-1]]).any(axis=1)
+    same = np.empty(len(points), np.int64)
+    same[order] = np.cumsum(new) - 1
+    return points[order[new]], same
 
 
 def _scaled(points: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
