@@ -111,6 +111,21 @@ def test_a_point_beside_an_edge_does_not_hang():
     assert hanging_nodes(lepp.Triangulation.from_arrays(points, triangles)).tolist() == [3]
 
 
+def test_a_point_above_an_edge_does_not_hang():
+    points = np.array([[0, 0, 0], [2, 0, 2], [1, 1.5, 1], [1, 0, 1 + 2.0**-50], [1, -1.5, 1]])
+    mesh = lepp.Triangulation.from_arrays(points, [[0, 1, 2], [0, 4, 3], [3, 4, 1]])
+    assert len(hanging_nodes(mesh)) == 0
+    points[3, 2] = 1.0
+    mesh = lepp.Triangulation.from_arrays(points, [[0, 1, 2], [0, 4, 3], [3, 4, 1]])
+    assert hanging_nodes(mesh).tolist() == [3]
+
+
+def test_a_point_on_the_line_beyond_an_edge_does_not_hang():
+    points = np.array([[0, 0], [1, 0], [0, 1], [1 + 2.0**-40, 0], [2, 0], [2, 1]])
+    mesh = lepp.Triangulation.from_arrays(points, [[0, 1, 2], [3, 4, 5]])
+    assert len(hanging_nodes(mesh)) == 0
+
+
 @pytest.mark.parametrize("scale", [1e-300, 1e300])
 def test_at_every_magnitude(scale):
     points = scale * np.array([[0, 0], [2, 0], [1, 1.5], [1, 0], [1, -1.5]])
