@@ -12,15 +12,17 @@ import math
 import numpy as np
 
 from lepp.geometry.fixed_point import accumulator_sign, add_product, new_accumulator
-from lepp.jit import kernel
+from lepp.jit import inlined, kernel
 
 EPSILON = 2.0**-53
 ORIENTATION_BOUND = (3.0 + 16.0 * EPSILON) * EPSILON
 # Products that underflow lose up to 2**-1075 each, which the relative bounds do not see.
 UNDERFLOW = 2.0**-960
-# Inside these magnitudes (or at zero) the error-free product below neither over- nor underflows.
-_PRODUCT_MIN = 2.0**-450
-_PRODUCT_MAX = 2.0**450
+# Inside these magnitudes (or at zero) the error-free product below neither over- nor underflows:
+# the last bits of the factors are at least 2**-537, and so that of their product is at least
+# 2**-1074; the product is below 2**1022.
+_PRODUCT_MIN = 2.0**-485
+_PRODUCT_MAX = 2.0**511
 _SPLITTER = 2.0**27 + 1.0
 
 
@@ -82,6 +84,30 @@ def uncertain_orientation(ax, ay, bx, by, cx, cy):
 
 
 @kernel
+def turn_is_certain(left, right):
+    """Tell whether the rounded products of a turn differ in the order of the exact ones.
+
+    Parameters
+    ----------
+    left, right : float
+        The two products of rounded differences of which the turn is the difference.
+    """
+    return abs(left - right) > ORIENTATION_BOUND * (abs(left) + abs(right)) + UNDERFLOW
+
+
+@kernel
+def turn_error(width, height):
+    """Bound the rounding error of all turns about a point.
+
+    Parameters
+    ----------
+    width, height : float
+        No point taken is farther from that point than this along x and y.
+    """
+    return 2.0 * ORIENTATION_BOUND * (width * height) + UNDERFLOW
+
+
+@kernel
 def orientation(ax, ay, bx, by, cx, cy):
     """Tell on which side of the line from a to b the point c lies.
 
@@ -93,11 +119,23 @@ def orientation(ax, ay, bx, by, cx, cy):
     """
     left = (ax - cx) * (by - cy)
     right = (ay - cy) * (bx - cx)
-    determinant = left - right
-    bound = ORIENTATION_BOUND * (abs(left) + abs(right)) + UNDERFLOW
-    if abs(determinant) > bound:
-        return 1 if determinant > 0.0 else -1
+    if turn_is_certain(left, right):
+        return 1 if left > right else -1
     return uncertain_orientation(ax, ay, bx, by, cx, cy)
+
+
+@inlined
+def orient(points, a, b, c):
+    """Return `orientation` of three points given by their indices."""
+    return orientation(
+        points[a, 0], points[a, 1], points[b, 0], points[b, 1], points[c, 0], points[c, 1]
+    )
+
+
+@inlined
+def same(points, a, b):
+    """Tell whether two points, given by their indices, coincide."""
+    return points[a, 0] == points[b, 0] and points[a, 1] == points[b, 1]
 
 
 @kernel
@@ -105,16 +143,22 @@ def orientations(points, triangles):
     """Return the `orientation` of each triangle of an (m, 3) array, as (m,) int8."""
     signs = np.empty(len(triangles), np.int8)
     for t in range(len(triangles)):
-        a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
-        signs[t] = orientation(
-            points[a, 0], points[a, 1], points[b, 0], points[b, 1], points[c, 0], points[c, 1]
-        )
+        signs[t] = orient(points, triangles[t, 0], triangles[t, 1], triangles[t, 2])
     return signs
 
 
-# The permanent of the in-circle determinant is at most a third of the square of the sum of the
-# three squared distances: 10/3 EPSILON of that bounds the rounding error, the rest covers its own.
-IN_CIRCLE_BOUND = 4.0 * EPSILON
+# The first filter of the in-circle determinant takes its error relative to the square of s, the sum
+# of the three squared distances. Let a, b, c be the points relative to p, and t one of the three
+# terms, a square times a minor. To first order in EPSILON, the error is at most the sum of
+# - 7 |t|: two each for a square and for what the rounded differences do to it, one each for the
+#   minor's subtraction, the multiplication and the first addition (the last is relative to the
+#   result);
+# - the permanent, for the products in the minors: at most s**2 / 3;
+# - |a| |b| |c| (|a - b| + |b - c| + |c - a|), for what the rounded differences do to the minors: at
+#   most sqrt(s / 3)**3 * 3 sqrt(s) < 0.578 s**2.
+# A sign can be wrong only where the terms cancel but for some EPSILON. Their absolute values then
+# sum up to twice the largest, and |a|**2 |b| |c| is at most s**2 / 8: 7 * 2/8 + 1/3 + 0.578 < 2.67.
+IN_CIRCLE_BOUND = 2.75 * EPSILON
 _PERMANENT_BOUND = (10.0 + 96.0 * EPSILON) * EPSILON
 # With integers up to this, the in-circle determinant (12 times the fourth power) fits 63 bits.
 _SMALL_BITS = 14

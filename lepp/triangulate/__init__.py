@@ -8,7 +8,7 @@ import numpy as np
 from lepp.errors import InputError
 from lepp.mesh.triangulation import Triangulation, check_points
 from lepp.triangulate.delaunay.delaunay import delaunay
-from lepp.triangulate.plain.subdivision import incremental
+from lepp.triangulate.plain.incremental import incremental
 
 Built = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray | None]
 """Triangles, neighbors and repeated points as `Triangulation` has them; and, or None, the ranks of

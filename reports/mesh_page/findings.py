@@ -118,9 +118,9 @@ def worst(found: Survey) -> str:
     names = [f"{t:,}" for t in path]
     if len(names) > _STEPS:
         names = [*names[: _STEPS - 2], f"… {len(names) - _STEPS + 1:,} more …", names[-1]]
-    last = int(path[-1])
-    end = "on the boundary" if found.paths.successors[last] < 0 else "between the last two"
-    a, b = found.paths.terminal_edges[found.paths.regions[last]]
+    in_pair = found.paths.neighbor_types[path[-2]] == lepp.TYPE_C
+    end = "between the last two" if in_pair else "on the boundary"
+    a, b = found.paths.terminal_edges[found.paths.regions[path[0]]]
     return (
         f"The longest path starts at triangle {path[0]:,} and goes {' → '.join(names)}; its "
         f"terminal edge is {end}, from point {a:,} to point {b:,}; {as_long}."

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
+import lepp
 from reports.mesh_page import findings
 from reports.page.assets import environment, static
 from reports.page.blocks import ALWAYS, Facts, Prose, Tiles
@@ -17,7 +18,9 @@ MOST_DRAWN = 100_000
 
 _MOST_CLASSES = 5  # shades that can be told apart
 _STEPS = 60  # of the longest path that the table shows
-_OUTSIDE = -4  # a successor that is not drawn; -1 to -3 stand for a longest edge on the boundary
+
+# Where the longest edge, across from vertex k, is terminal; 0 where the path goes on.
+_BOUNDARY, _PAIR = 1, 4
 
 
 def render(survey: Survey) -> str:
@@ -44,7 +47,7 @@ def render(survey: Survey) -> str:
             n_triangles=len(survey.triangulation),
             sizes=_histogram(survey.counts.counts),
             region_sizes=_histogram(np.bincount(survey.region_sizes)),
-            path=_path_rows(survey),
+            path=list(_path_rows(survey)),
             n_path=len(survey.worst_path),
             drawing=drawing(survey, drawn),
             data=packed(survey, drawn),
@@ -82,16 +85,18 @@ def drawing(found: Survey, drawn: np.ndarray) -> dict[str, object]:
         "dimensions": found.triangulation.points.shape[1],
         "classes": size_classes(found.counts.max),
         "worst": int(np.searchsorted(drawn, found.worst_path[0])),
-        "whole": len(drawn) == len(found.triangulation),
+        "total": len(found.triangulation),
     }
 
 
 def packed(found: Survey, drawn: np.ndarray) -> str:
     """Pack the arrays that the page draws, compressed, as base64.
 
-    Little-endian, one after the other: coordinates (float32, between -1 and 1), vertices,
-    successors (as places in what is drawn; -1, -2, -3 where the longest edge, across from vertex
-    0, 1, 2, is on the boundary), sizes, and the triangles' own numbers (int32).
+    Little-endian, one after the other: coordinates (float32, between -1 and 1); vertices,
+    successors (as places in what is drawn; -1 where none is), sizes, and the triangles' own
+    numbers (int32); and where paths end (uint8): 0 where the path goes on, 1 + k where the longest
+    edge, across from vertex k, is on the boundary, and 4 + k where it is the longest of the
+    triangle beside it, too.
     """
     triangles = found.triangulation.triangles[drawn]
     used, vertices = np.unique(triangles, return_inverse=True)
@@ -105,19 +110,25 @@ def packed(found: Survey, drawn: np.ndarray) -> str:
         _successors(found, drawn).astype("<i4"),
         found.paths.sizes[drawn].astype("<i4"),
         drawn.astype("<i4"),
+        _ends(found, drawn),
     )
     content = b"".join(array.tobytes() for array in arrays)
     return base64.b64encode(zlib.compress(content, 9)).decode("ascii")
 
 
 def _successors(found: Survey, drawn: np.ndarray) -> np.ndarray:
-    place = np.full(len(found.triangulation), _OUTSIDE)
+    place = np.full(len(found.triangulation) + 1, -1)  # the last for no successor
     place[drawn] = np.arange(len(drawn))
-    successors = found.paths.successors[drawn]
+    return place[found.paths.successors[drawn]]
+
+
+def _ends(found: Survey, drawn: np.ndarray) -> np.ndarray:
+    types = found.paths.neighbor_types[drawn]
     edges = found.paths.terminal_edges[found.paths.regions[drawn]]
     triangles = found.triangulation.triangles[drawn]
     across = (triangles[:, :, None] != edges[:, None, :]).all(axis=2).argmax(axis=1)
-    return np.where(successors < 0, -1 - across, place[np.maximum(successors, 0)])
+    kinds = [_BOUNDARY + across, _PAIR + across]
+    return np.select([types == lepp.TYPE_NONE, types == lepp.TYPE_C], kinds, 0).astype(np.uint8)
 
 
 def _prose(*paragraphs: str) -> Prose:

@@ -6,13 +6,19 @@ A text or a figure that depends on the switch is a mapping from a view's key to 
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from markupsafe import Markup
 
 from reports.page.style import Spec
 from reports.page.views import View
 
+if TYPE_CHECKING:
+    from study.analysis.table import Declaration
+
 ALWAYS = "*"
+#: The columns that the page's switches pick rows by.
+SWITCHES = ("method", "distribution")
 
 
 @dataclass(frozen=True)
@@ -54,29 +60,44 @@ class TableBlock:
 
     Attributes
     ----------
-    table : str
-        Name of the table.
+    table : Declaration
     caption : str
     columns : tuple of str
         The columns to show; all when empty. The download always has all.
-    follows : tuple of str
-        The switches that pick the rows shown.
+    follows : tuple of str, optional
+        The switches that pick the rows shown; those that the table has a column for, by default.
     folded : bool
         Whether the reader has to open it.
     where : dict
         Values of further columns that pick the rows shown.
     printed_whole : bool
         Whether a print-out has all rows, however many there are.
+
+    Raises
+    ------
+    UnknownNameError
+        If the table has no such column.
     """
 
-    table: str
+    table: "Declaration"
     caption: str
     columns: tuple[str, ...] = ()
-    follows: tuple[str, ...] = ("method", "distribution")
+    follows: tuple[str, ...] | None = None
     folded: bool = False
     where: dict[str, object] = field(default_factory=dict)
     printed_whole: bool = False
     kind: str = "table"
+
+    def __post_init__(self) -> None:
+        asked = (*self.columns, *self.followed, *self.where)
+        self.table.check_columns(asked)
+
+    @property
+    def followed(self) -> tuple[str, ...]:
+        """The switches that pick the rows."""
+        if self.follows is not None:
+            return self.follows
+        return tuple(name for name in SWITCHES if name in self.table.column_names)
 
 
 @dataclass(frozen=True)

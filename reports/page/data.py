@@ -1,7 +1,8 @@
-"""The page's data block: every number once, compressed.
+"""The page's data block: every number once, as a file has it and as a reader sees it, compressed.
 
-Tables travel as the CSV text that also stands on disk. A figure's arrays, where they are columns
-of those tables, are replaced by references to them: ``{"$": [table, column, where]}``.
+A table's cells travel as the texts of its CSV file and, where those differ, as the texts that
+`reports.text.numbers` makes of them. A figure's arrays that are columns of a table are references
+to them: ``{"$": [table, column, where]}``.
 """
 
 import base64
@@ -13,50 +14,29 @@ from collections.abc import Iterable
 import numpy as np
 import pandas as pd
 
-from study.analysis.table import Table
+from reports.text.numbers import show
+from reports.text.words import sense
+from study.analysis.table import Column, ColumnReference, Table
 
 _SHORT = 4  # an array this short costs less than a reference to it
 
 
-class ColumnIndex:
-    """Columns of tables by their content, to recognise them in figures.
-
-    Parameters
-    ----------
-    tables : dict of str to Table
-    selections : iterable of (str, dict)
-        Selections of rows: a table's name, and the value that each named column must have.
-    """
-
-    def __init__(
-        self, tables: dict[str, Table], selections: Iterable[tuple[str, dict[str, object]]]
-    ) -> None:
-        self._references: dict[str, dict] = {}
-        for name, where in selections:
-            frame = select(tables[name].frame, where)
-            for column in frame.columns:
-                key = json.dumps(plain(frame[column]))
-                self._references.setdefault(key, {"$": [name, column, where]})
-
-    def replace(self, node: object) -> object:
-        """Copy a figure's specification with references for the arrays that are known."""
-        if isinstance(node, dict):
-            return {key: self.replace(value) for key, value in node.items()}
-        if isinstance(node, np.ndarray | pd.Series | list | tuple):
-            if any(isinstance(item, dict | list | tuple) for item in node):
-                return [self.replace(item) for item in node]
-            values = plain(node)
-            if len(values) > _SHORT:
-                return self._references.get(json.dumps(values), values)
-            return values
-        return plain_value(node)
+def figure_data(node: object) -> object:
+    """Make JSON values of a figure's specification, with references for columns of tables."""
+    if isinstance(node, ColumnReference):
+        if len(node) > _SHORT:
+            return {"$": [node.table, node.column, plain_mapping(node.where)]}
+        return plain(node)
+    if isinstance(node, dict):
+        return {key: figure_data(value) for key, value in node.items()}
+    if isinstance(node, np.ndarray | pd.Series | list | tuple):
+        return [figure_data(item) for item in node]
+    return plain_value(node)
 
 
-def select(frame: pd.DataFrame, where: dict[str, object]) -> pd.DataFrame:
-    """Rows of a frame whose columns have the values asked for."""
-    for column, value in where.items():
-        frame = frame[frame[column] == value]
-    return frame
+def plain_mapping(values: object) -> dict:
+    """Make JSON values of a mapping's."""
+    return {key: plain_value(value) for key, value in dict(values).items()}  # type: ignore[call-overload]  # any mapping
 
 
 def plain(values: Iterable[object]) -> list:
@@ -78,16 +58,33 @@ def plain_value(value: object) -> object:
 
 
 def table_data(table: Table) -> dict:
-    """Describe a table for the page: its columns, and its CSV text as it stands on disk."""
+    """Describe a table for the page: its columns with their cells, raw and as they are shown."""
     return {
         "title": table.title,
         "note": table.note,
-        "columns": [
-            {"name": c.name, "label": c.label, "unit": c.unit, "format": c.format}
-            for c in table.columns
-        ],
-        "csv": table.to_csv(),
+        "columns": [_column_data(table, column) for column in table.columns],
     }
+
+
+def _column_data(table: Table, column: Column) -> dict:
+    raw = table.cells(column.name)
+    shown = [show(value, column.format) for value in table.frame[column.name]]
+    label = column.label
+    if column.format == "log10p":  # shown as p
+        label = label.removeprefix("log10 ")
+    data: dict[str, object] = {"name": column.name, "label": label, "header": column.header}
+    if column.unit and column.unit != label.lower():
+        data["unit"] = column.unit
+    if column.is_number:
+        data["number"] = True
+    if column.format == "verdict":
+        senses = {text: sense(text) for text in dict.fromkeys(shown)}
+        data["senses"] = {text: value for text, value in senses.items() if value}
+        data["verdict"] = True
+    data["raw"] = raw
+    if shown != raw:
+        data["shown"] = shown
+    return data
 
 
 def compress(text: str) -> str:

@@ -1,67 +1,60 @@
 """What the report speaks from: the tables of a run, and the rows that a view picks from them."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import pandas as pd
 
-from reports.page.data import select
 from reports.page.views import View
-from study.analysis.table import Table
+from study.analysis.table import Declaration, Rows, Tables
 from study.design.design import Design
 
 
 @dataclass(frozen=True)
 class Evidence:
-    """The tables of a run, and what was asked of them.
+    """The tables of a run.
 
     Attributes
     ----------
-    tables : dict of str to Table
+    tables : Tables
         The analysis's tables and the report's own, by name.
     design : Design
     manifest : mapping
         What the results directory says of itself.
-    selections : list of (str, dict)
-        Every selection of rows asked for so far: figures refer to these columns instead of
-        repeating their numbers.
     """
 
-    tables: dict[str, Table]
+    tables: Tables
     design: Design
     manifest: Mapping
-    selections: list[tuple[str, dict[str, object]]] = field(default_factory=list)
 
     @property
     def views(self) -> list[View]:
         """All settings of the switch, the design's first method and distribution first."""
         return [View(m, d) for m in self.design.methods for d in self.design.distributions]
 
-    def rows(self, table: str, view: View | None = None, /, **where: object) -> pd.DataFrame:
-        """Rows of a table, empty if there is none of that name.
+    def rows(self, declared: Declaration, view: View | None = None, /, **where: object) -> Rows:
+        """Rows of a table.
 
         Parameters
         ----------
-        table : str
+        declared : Declaration
+            Which table.
         view : View, optional
-            Picks method and distribution.
+            Picks method and distribution, or the one of them that the table has.
         **where
             Values that further columns must have.
+
+        Raises
+        ------
+        UnknownNameError
+            If there is no such table, or no such column in it.
         """
-        if table not in self.tables:
-            return pd.DataFrame()
-        frame = self.tables[table].frame
-        wanted: dict[str, object] = {**(view.where if view else {}), **where}
-        wanted = {name: value for name, value in wanted.items() if name in frame.columns}
-        if (table, wanted) not in self.selections:
-            self.selections.append((table, wanted))
-        return select(frame, wanted)
+        seen = {k: v for k, v in view.where.items() if k in declared.column_names} if view else {}
+        return self.tables.rows(declared, **seen, **where)
 
-    def has(self, table: str) -> bool:
-        """Whether there is such a table, and a row in it."""
-        return table in self.tables and len(self.tables[table].frame) > 0
-
-    def one(self, table: str, view: View | None = None, /, **where: object) -> pd.Series | None:
+    def one(
+        self, declared: Declaration, view: View | None = None, /, **where: object
+    ) -> pd.Series | None:
         """Return the first row of a selection; None if there is none."""
-        rows = self.rows(table, view, **where)
-        return None if rows.empty else rows.iloc[0]
+        rows = self.rows(declared, view, **where)
+        return None if rows.empty else rows.first

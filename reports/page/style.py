@@ -212,14 +212,19 @@ def _domains(
     return domains
 
 
+def _of(series: int, **choices: Sequence[str]) -> Spec:
+    # Beyond the last colour they begin again.
+    return {name: values[series % len(values)] for name, values in choices.items()}
+
+
 def marker(series: int, size: float = 7, **more: Any) -> Spec:  # noqa: ANN401 - as above
     """Marker of a series."""
-    return {"color": SERIES[series], "symbol": SYMBOLS[series], "size": size, **more}
+    return {**_of(series, color=SERIES, symbol=SYMBOLS), "size": size, **more}
 
 
 def line(series: int, width: float = 2) -> Spec:
     """Line of a series."""
-    return {"color": SERIES[series], "dash": DASHES[series], "width": width}
+    return {**_of(series, color=SERIES, dash=DASHES), "width": width}
 
 
 def band(x: object, low: object, high: object, name: str) -> list[Spec]:

@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-METHOD_NAMES = {"incremental": "Incremental", "delaunay": "Delaunay"}
-_METHOD_WORDS = {"incremental": "incremental", "delaunay": "Delaunay"}
+from lepp import METHODS
+
 DISTRIBUTION_NAMES = {
     "uniform": "Uniform",
     "normal": "Normal",
@@ -35,19 +35,14 @@ class View:
         return distribution_word(self.distribution)
 
     @property
-    def method_name(self) -> str:
+    def method_title(self) -> str:
         """The method as a heading has it."""
-        return METHOD_NAMES[self.method]
+        return METHODS[self.method].title
 
     @property
     def method_word(self) -> str:
         """The method as a word in a sentence."""
-        return method_word(self.method)
-
-
-def method_word(method: str) -> str:
-    """Name of a method as a word in a sentence."""
-    return _METHOD_WORDS[method]
+        return METHODS[self.method].word
 
 
 def distribution_name(distribution: str) -> str:

@@ -1,93 +1,114 @@
-// The data block: tables as CSV text, figures as Plotly specifications that refer to them.
-"use strict";
+// The data block: tables, cell by cell as files have them and as they are shown, and figures as
+// Plotly specifications that refer to them.
 
-// Bytes of base64 text; a loop is ten times as fast as Uint8Array.from with a function.
-function bytesOf(text) {
-  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
-  const binary = atob(text);
-  const bytes = new Uint8Array(binary.length);
-  for (let k = 0; k < binary.length; k++) bytes[k] = binary.charCodeAt(k);
-  return bytes;
-}
+/** @typedef {string | number | null} Cell */
 
-function inflate(id) {
-  const bytes = bytesOf(document.getElementById(id).textContent);
-  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate")));
-}
+/**
+ * A column of a table: its cells as the CSV file has them, and as they are shown where that differs.
+ * @typedef {object} Column
+ * @property {string} name
+ * @property {string} header of the CSV file
+ * @property {string} label
+ * @property {string} [unit]
+ * @property {boolean} [number]
+ * @property {boolean} [verdict]
+ * @property {Record<string, string>} [senses] of verdicts: "good" or "bad"
+ * @property {string[]} raw
+ * @property {string[]} [shown]
+ */
 
-// Run an inflated script; from a blob the browser compiles it beside the page, not in its way.
-async function runInflated(id) {
-  const address = URL.createObjectURL(await inflate(id).blob());
-  const script = document.createElement("script");
-  script.src = address;
-  await new Promise((resolve, reject) => {
-    script.onload = resolve;
-    script.onerror = () => reject(new Error(`cannot run ${id}`));
-    document.head.append(script);
-  });
-  URL.revokeObjectURL(address);
-}
+/** @typedef {{ title: string, note: string, columns: Column[] }} TableSpec */
 
-function parseCsv(text) {
-  const rows = [];
-  let row = [];
-  let cell = "";
-  let quoted = false;
-  for (let k = 0; k < text.length; k++) {
-    const character = text[k];
-    if (quoted) {
-      if (character !== '"') cell += character;
-      else if (text[k + 1] === '"') { cell += '"'; k++; }
-      else quoted = false;
-    } else if (character === '"') quoted = true;
-    else if (character === ",") { row.push(cell); cell = ""; }
-    else if (character === "\n") { row.push(cell); rows.push(row); row = []; cell = ""; }
-    else cell += character;
-  }
-  return rows;
-}
+/**
+ * A figure of each view, by the view's name; "*" is for all.
+ * @typedef {Record<string, object>} FigureSpecs
+ */
+
+/** @type {(cell: string) => string} */
+const quoted = (cell) => /[",\r\n]/.test(cell) ? `"${cell.replaceAll('"', '""')}"` : cell;
 
 class Table {
-  constructor(name, { title, note, columns, csv }) {
-    Object.assign(this, { name, title, note, columns, csv });
-    this.index = new Map(columns.map((column, k) => [column.name, k]));
+  /**
+   * @param {string} name
+   * @param {TableSpec} spec
+   */
+  constructor(name, { title, note, columns }) {
+    this.name = name;
+    this.title = title;
+    this.note = note;
+    this.columns = columns;
+    this.byName = new Map(columns.map((column) => [column.name, column]));
+    this.length = columns[0].raw.length;
   }
 
-  // Rows of cells: text as it is, numbers as doubles, null for an empty cell.
-  get rows() {
-    const numeric = this.columns.map((column) => column.format !== "text");
-    const read = (cell, k) => cell === "" ? null : numeric[k] ? Number(cell) : cell;
-    const rows = parseCsv(this.csv).slice(1).map((row) => row.map(read));
-    Object.defineProperty(this, "rows", { value: rows });
-    return rows;
+  /** @param {string} name */
+  has(name) {
+    return this.byName.has(name);
   }
 
-  select(where) {
-    const wanted = Object.entries(where).filter(([name]) => this.index.has(name))
-      .map(([name, value]) => [this.index.get(name), value]);
-    return this.rows.filter((row) => wanted.every(([k, value]) => String(row[k]) === String(value)));
+  /** @param {string} name */
+  get(name) {
+    const column = this.byName.get(name);
+    if (!column) throw new Error(`table ${this.name} has no column ${name}`);
+    return column;
   }
 
-  column(name, where = {}) {
-    const k = this.index.get(name);
-    return this.select(where).map((row) => row[k]);
+  /**
+   * Places of the rows whose columns have the values asked for.
+   * @param {Record<string, unknown>} where
+   */
+  select(where = {}) {
+    const wanted = Object.entries(where)
+      .map(([name, value]) => ({ raw: this.get(name).raw, text: String(value) }));
+    return [...Array(this.length).keys()].filter((row) =>
+      wanted.every(({ raw, text }) => raw[row] === text));
+  }
+
+  /**
+   * Values of a column: words as they are, numbers as doubles, null for an empty cell.
+   * @param {string} name
+   * @param {number[]} rows
+   * @returns {Cell[]}
+   */
+  values(name, rows) {
+    const { raw, number } = this.get(name);
+    return rows.map((row) => raw[row] === "" ? null : number ? Number(raw[row]) : raw[row]);
+  }
+
+  get csv() {
+    const lines = [this.columns.map((column) => column.header),
+      ...this.select().map((row) => this.columns.map((column) => column.raw[row]))];
+    return lines.map((line) => line.map(quoted).join(",") + "\n").join("");
   }
 }
 
-class Report {
+class ReportData {
+  /** @param {{ tables: Record<string, TableSpec>, figures: Record<string, FigureSpecs> }} data */
   constructor({ tables, figures }) {
     this.tables = new Map(
       Object.entries(tables).map(([name, table]) => [name, new Table(name, table)]));
     this.figures = figures;
   }
 
-  // Put the columns of tables where a figure refers to them.
+  /** @param {string} name */
+  table(name) {
+    const table = this.tables.get(name);
+    if (!table) throw new Error(`there is no table ${name}`);
+    return table;
+  }
+
+  /**
+   * Put the columns of tables where a figure refers to them.
+   * @param {any} node of JSON
+   * @returns {any}
+   */
   resolve(node) {
     if (Array.isArray(node)) return node.map((item) => this.resolve(item));
     if (node === null || typeof node !== "object") return node;
     if (node.$) {
       const [table, column, where] = node.$;
-      return this.tables.get(table).column(column, where);
+      const rows = this.table(table).select(where);
+      return this.table(table).values(column, rows);
     }
     return Object.fromEntries(Object.entries(node).map(([key, item]) => [key, this.resolve(item)]));
   }

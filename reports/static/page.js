@@ -1,20 +1,32 @@
-// The switch, the address, the theme and the printer.
+// The switch, the address and the printer.
 const root = document.documentElement;
-const bar = document.querySelector(".bar");
+const bar = /** @type {HTMLElement} */ (document.querySelector(".bar"));
 const PAPER_WIDTH = 680;
 
+/**
+ * The buttons of a switch.
+ * @param {string} name
+ * @returns {HTMLInputElement[]}
+ */
+const inputsOf = (name) => [...bar.querySelectorAll("input")].filter((input) => input.name === name);
+
 const choices = Object.fromEntries(["method", "distribution"].map((name) =>
-  [name, [...bar.querySelectorAll(`input[name="${name}"]`)].map((input) => input.value)]));
+  [name, inputsOf(name).map((input) => input.value)]));
 const address = () => new URLSearchParams(location.hash.slice(1));
 
-// What the address asks for, where it asks for something that ran.
+/**
+ * What the address asks for, where it asks for something that ran.
+ * @param {URLSearchParams} parameters
+ * @returns {Record<string, string>}
+ */
 function viewOf(parameters) {
   return Object.fromEntries(Object.entries(choices).map(([name, values]) =>
-    [name, values.includes(parameters.get(name)) ? parameters.get(name) : values[0]]));
+    [name, values.find((value) => value === parameters.get(name)) ?? values[0]]));
 }
 
 let view = viewOf(address());
 
+/** @param {string} [section] */
 function hashOf(section) {
   const parts = Object.entries(view).filter(([name]) => choices[name].length > 1)
     .map(([name, value]) => `${name}=${value}`);
@@ -22,84 +34,68 @@ function hashOf(section) {
   return "#" + parts.join("&");
 }
 
+/** @param {string | null} section */
 function scrollToSection(section) {
   const target = section && document.getElementById(section);
   if (!target) return;
   target.scrollIntoView();
-  (target.querySelector("h2") ?? target).focus({ preventScroll: true });
+  /** @type {HTMLElement} */ (target.querySelector("h2") ?? target).focus({ preventScroll: true });
 }
 
 function showVariants() {
   const key = `${view.method}/${view.distribution}`;
   document.body.dataset.view = key;
-  for (const variant of document.querySelectorAll("main [data-view]")) {
+  for (const variant of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("main [data-view]"))) {
     variant.hidden = variant.dataset.view !== key;
   }
   for (const [name, value] of Object.entries(view)) {
-    for (const input of bar.querySelectorAll(`input[name="${name}"]`)) {
-      input.checked = input.value === value;
-    }
+    for (const input of inputsOf(name)) input.checked = input.value === value;
   }
 }
 
+/** @param {HTMLElement} host */
 function isOpen(host) {
   const fold = host.closest("details");
   return !fold || fold.open;
 }
 
+/**
+ * @param {ParentNode} node
+ * @returns {NodeListOf<HTMLElement>}
+ */
+const tablesIn = (node) => node.querySelectorAll("[data-table]");
+
+/**
+ * @param {ReportData} report
+ * @param {Iterable<HTMLElement>} hosts
+ */
 function drawTables(report, hosts) {
   for (const host of hosts) {
-    const key = host.dataset.follows.split(" ").map((name) => view[name]).join(" ");
+    const key = (host.dataset.follows ?? "").split(" ").map((name) => view[name]).join(" ");
     if (host.dataset.drawn === key) continue;
     drawTable(host, report, view, choices);
     host.dataset.drawn = key;
   }
 }
 
-function setTheme(theme) {
-  if (theme) root.dataset.theme = theme;
-  else delete root.dataset.theme;
-}
-
-function isDark() {
-  return getComputedStyle(root).colorScheme === "dark"
-    || (root.dataset.theme === undefined && matchMedia("(prefers-color-scheme: dark)").matches);
-}
-
-function wireTheme(figures) {
-  const button = document.getElementById("theme");
-  const repaint = () => {
-    button.setAttribute("aria-pressed", String(isDark()));
-    figures.redraw(view);
-  };
-  button.setAttribute("aria-pressed", String(isDark()));
-  button.addEventListener("click", () => {
-    const theme = isDark() ? "light" : "dark";
-    setTheme(theme);
-    try { localStorage.setItem("theme", theme); } catch { /* kept for this visit only */ }
-    repaint();
-  });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", repaint);
-}
-
+/**
+ * @param {ReportData} report
+ * @param {Figures} figures
+ */
 function wirePrinter(report, figures) {
+  /** @type {HTMLDetailsElement[]} */
   let opened = [];
-  let theme;
-  addEventListener("beforeprint", () => {
-    theme = root.dataset.theme;
-    setTheme("light");
-    opened = [...document.querySelectorAll("details:not([open])")];
+  printInLight(() => {
+    opened = [...document.querySelectorAll("details")].filter((fold) => !fold.open);
     for (const fold of opened) fold.open = true;
-    drawTables(report, document.querySelectorAll("[data-table]"));
+    drawTables(report, tablesIn(document));
     if (window.Plotly) {
       figures.drawRest(view);
       figures.redraw(view);
       figures.fitToPaper(PAPER_WIDTH);
     }
-  });
-  addEventListener("afterprint", () => {
+  }, () => {
     for (const fold of opened) fold.open = false;
-    setTheme(theme);
     if (window.Plotly) {
       figures.redraw(view);
       figures.fitToScreen();
@@ -108,7 +104,7 @@ function wirePrinter(report, figures) {
 }
 
 function wireContents() {
-  const links = [...document.querySelectorAll(".contents a")];
+  const links = [.../** @type {NodeListOf<HTMLAnchorElement>} */ (document.querySelectorAll(".contents a"))];
   for (const link of links) {
     link.addEventListener("click", (event) => {
       event.preventDefault();
@@ -129,7 +125,10 @@ function wireContents() {
   document.querySelectorAll("main > section").forEach((section) => reading.observe(section));
 }
 
-// How far the page is, for the reader's tools and the tests.
+/**
+ * How far the page is, for the reader's tools and the tests.
+ * @param {string} stage
+ */
 function settle(stage) {
   performance.mark(stage);
   root.dataset.ready = stage;
@@ -138,10 +137,10 @@ function settle(stage) {
 async function start() {
   showVariants();
   wireContents();
-  const report = new Report(await inflate("report-data").json());
+  const report = new ReportData(await inflate("report-data").json());
   const figures = new Figures(report);
-  const tables = [...document.querySelectorAll("[data-table]")];
-  const host = document.querySelector(".explorer");
+  const tables = [...tablesIn(document)];
+  const host = /** @type {HTMLElement | null} */ (document.querySelector(".explorer"));
   const explorer = host && new Explorer(host, report);
   const drawOpenTables = () => drawTables(report, tables.filter(isOpen));
 
@@ -153,12 +152,12 @@ async function start() {
   };
   bar.addEventListener("change", () => {
     view = Object.fromEntries(Object.keys(choices).map((name) =>
-      [name, bar.querySelector(`input[name="${name}"]:checked`).value]));
+      [name, inputsOf(name).find((input) => input.checked)?.value ?? ""]));
     history.pushState(null, "", hashOf());
     apply();
     const said = [...bar.querySelectorAll(".switch:not([hidden]) input:checked + span")];
-    document.getElementById("announcement").textContent =
-      `Now showing: ${said.map((label) => label.textContent.trim()).join(", ")}`;
+    /** @type {HTMLElement} */ (document.getElementById("announcement")).textContent =
+      `Now showing: ${said.map((label) => label.textContent?.trim()).join(", ")}`;
   });
   addEventListener("popstate", () => {
     const asked = address();
@@ -172,7 +171,8 @@ async function start() {
     scrollToSection(asked.get("section"));
   });
   document.addEventListener("toggle", (event) => {
-    if (event.target.open) drawTables(report, event.target.querySelectorAll("[data-table]"));
+    const fold = /** @type {HTMLDetailsElement} */ (event.target);
+    if (fold.open) drawTables(report, tablesIn(fold));
   }, true);
 
   drawOpenTables();
@@ -180,7 +180,7 @@ async function start() {
   scrollToSection(address().get("section"));
   settle("tables");
 
-  wireTheme(figures);
+  wireTheme(() => figures.redraw(view));
   wirePrinter(report, figures);
   await runInflated("plotly-source");
   figures.watch(() => view);

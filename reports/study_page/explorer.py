@@ -5,30 +5,42 @@ import pandas as pd
 
 import lepp
 from reports.page.views import View
-from study.analysis.table import Column, Table
+from study.analysis.table import DISTRIBUTION, METHOD, Column, Declaration, Table
 from study.design.design import Design
 from study.design.sampling import sample_points
 
 N_POINTS = 60
 
-_VIEW = (Column("method", "Method"), Column("distribution", "Distribution"))
-_POINT = (
-    *_VIEW,
-    Column("point", "Point", "", "int"),
-    Column("x", "x", "", "fixed4"),
-    Column("y", "y", "", "fixed4"),
+_VIEW = (METHOD, DISTRIBUTION)
+
+EXPLORER_POINTS = Declaration(
+    "explorer_points",
+    "Points of the explorer",
+    (
+        *_VIEW,
+        Column("point", "Point", "", "int"),
+        Column("x", "x", "", "fixed4"),
+        Column("y", "y", "", "fixed4"),
+    ),
 )
-_TRIANGLE = (
-    *_VIEW,
-    Column("triangle", "Triangle", "", "int"),
-    Column("lepp_size", "LEPP size", "triangles", "int"),
-    Column("successor", "Next on its path", "triangle", "int"),
-    Column("a", "Vertex a", "point", "int"),
-    Column("b", "Vertex b", "point", "int"),
-    Column("c", "Vertex c", "point", "int"),
-    Column("terminal_edge", "Terminal edge"),
-    Column("terminal_a", "from", "point", "int"),
-    Column("terminal_b", "to", "point", "int"),
+
+EXPLORER_TRIANGLES = Declaration(
+    "explorer_triangles",
+    "Triangles of the explorer",
+    (
+        *_VIEW,
+        Column("triangle", "Triangle", "", "int"),
+        Column("lepp_size", "LEPP size", "triangles", "int"),
+        Column("successor", "Next on its path", "triangle", "int"),
+        Column("a", "Vertex a", "point", "int"),
+        Column("b", "Vertex b", "point", "int"),
+        Column("c", "Vertex c", "point", "int"),
+        Column("terminal_edge", "Terminal edge"),
+        Column("terminal_a", "from", "point", "int"),
+        Column("terminal_b", "to", "point", "int"),
+    ),
+    note=f"{N_POINTS} points drawn with the study's seed; a triangle's path goes on to the next "
+    "until two triangles share the longest edge of both, or the boundary is reached (no next).",
 )
 
 
@@ -47,15 +59,9 @@ def explorer_tables(design: Design, views: list[View]) -> tuple[Table, Table]:
         triangulation = _triangulation(design, view)
         points.append(_with_view(view, _points(triangulation)))
         triangles.append(_with_view(view, _triangles(triangulation)))
-    note = (
-        f"{N_POINTS} points drawn with the study's seed; a triangle's path goes on to the next "
-        "until two triangles share the longest edge of both, or the boundary is reached (no next)."
-    )
     return (
-        Table("explorer_points", "Points of the explorer", pd.concat(points), _POINT),
-        Table(
-            "explorer_triangles", "Triangles of the explorer", pd.concat(triangles), _TRIANGLE, note
-        ),
+        EXPLORER_POINTS.of_frame(pd.concat(points)),
+        EXPLORER_TRIANGLES.of_frame(pd.concat(triangles)),
     )
 
 

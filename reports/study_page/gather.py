@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from reports.page.evidence import Evidence
-from reports.study_page import tables as own
 from reports.study_page.explorer import explorer_tables
+from reports.study_page.tables import report_tables
 from study.analysis import analyse
 from study.results import store
 
@@ -17,17 +17,16 @@ def gather(directory: Path) -> Evidence:
     InputError
         If the directory holds no results that can be read.
     """
-    loaded = store.load(directory)
+    return evidence_of(store.load(directory))
+
+
+def evidence_of(loaded: store.Results) -> Evidence:
+    """Analyse results, and add the report's own tables."""
     design = loaded.design
-    tables = dict(analyse(loaded.results, loaded.histograms, loaded.regions, design))
+    tables = analyse(loaded.results, loaded.histograms, loaded.regions, design)
     evidence = Evidence(tables, design, loaded.manifest)
-    for table in (
-        own.table_4(tables["groups"], tables["reproduction"]),
-        own.statements_compared(tables["statements"], design.methods),
-        own.triangulations(loaded.results),
-        own.failures(loaded.results),
-        own.sampled_points(design),
+    added = (
+        *report_tables(tables, loaded.results, design),
         *explorer_tables(design, evidence.views),
-    ):
-        tables[table.name] = table
-    return evidence
+    )
+    return Evidence(tables.adding(*added), design, loaded.manifest)

@@ -4,15 +4,16 @@ import importlib.util
 from functools import cache
 from pathlib import Path
 
+from lepp import METHODS
 from reports.page.assets import environment, static
 from reports.page.blocks import FigureBlock, Section
-from reports.page.data import ColumnIndex, compress, encode, table_data
+from reports.page.data import compress, encode, figure_data, table_data
 from reports.page.evidence import Evidence
 from reports.page.files import write_whole
-from reports.page.views import DISTRIBUTION_NAMES, METHOD_NAMES
+from reports.page.views import distribution_name
 from reports.study_page import sections
 from reports.study_page.gather import gather
-from study.analysis.table import Table
+from study.analysis.table import DISTRIBUTION, METHOD, Column, Tables
 
 
 def write_report(directory: Path) -> Path:
@@ -64,9 +65,8 @@ def render(evidence: Evidence) -> str:
 
 def page_data(evidence: Evidence, parts: list[Section]) -> dict:
     """Everything that the page's script draws: tables, and figures that refer to them."""
-    index = ColumnIndex(evidence.tables, evidence.selections)
     figures = {
-        block.id: {key: index.replace(spec) for key, spec in block.specs.items()}
+        block.id: {key: figure_data(spec) for key, spec in block.specs.items()}
         for section in parts
         for part in section.parts
         for block in part.blocks
@@ -76,7 +76,7 @@ def page_data(evidence: Evidence, parts: list[Section]) -> dict:
     return {"tables": tables, "figures": figures}
 
 
-def write_tables(folder: Path, tables: dict[str, Table]) -> None:
+def write_tables(folder: Path, tables: Tables) -> None:
     """Write each table as CSV, and remove those that an earlier report left."""
     folder.mkdir(exist_ok=True)
     for name, table in tables.items():
@@ -88,17 +88,19 @@ def write_tables(folder: Path, tables: dict[str, Table]) -> None:
 
 def _switches(evidence: Evidence) -> list[dict]:
     return [
-        _switch("distribution", "Distribution", evidence.design.distributions, DISTRIBUTION_NAMES),
-        _switch("method", "Triangulation", evidence.design.methods, METHOD_NAMES),
+        _switch(
+            DISTRIBUTION, {name: distribution_name(name) for name in evidence.design.distributions}
+        ),
+        _switch(METHOD, {name: METHODS[name].title for name in evidence.design.methods}),
     ]
 
 
-def _switch(name: str, title: str, values: tuple[str, ...], names: dict[str, str]) -> dict:
+def _switch(column: Column, titles: dict[str, str]) -> dict:
     options = []
-    for value in values:
-        short, _, rest = names[value].partition(" ")
+    for value, title in titles.items():
+        short, _, rest = title.partition(" ")
         options.append({"value": value, "short": short, "rest": rest})
-    return {"name": name, "title": title, "options": options}
+    return {"name": column.name, "title": column.label, "options": options}
 
 
 @cache

@@ -1,67 +1,150 @@
 """The report's own tables, beside those of the analysis: what figures draw and comparisons show."""
 
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
 import pandas as pd
 
-from reports.page.views import METHOD_NAMES
-from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Table
+from lepp import METHODS
+from study.analysis.group_summaries import GROUPS
+from study.analysis.table import (
+    DISTRIBUTION,
+    METHOD,
+    N_POINTS,
+    Column,
+    Declaration,
+    Row,
+    Table,
+    Tables,
+)
 from study.design.design import Design
 from study.design.sampling import sample_points
+from study.paper.published import MEAN_LEPP, SD_BETWEEN
+from study.paper.reproduction import REPRODUCTION
+from study.paper.statements import STATEMENTS
 
 SCATTER_POINTS = 400
 
-_TRIANGULATIONS = (
-    METHOD,
-    DISTRIBUTION,
-    N_POINTS,
-    Column("replicate", "Repetition", "", "int"),
-    Column("n_triangles", "Triangles", "triangles", "int"),
-    Column("mean_lepp", "Mean LEPP", "triangles", "fixed4"),
-    Column("sd_lepp", "SD of LEPP", "triangles", "fixed4"),
-    Column("max_lepp", "Largest LEPP", "triangles", "int"),
-    Column("runs_p_x", "Runs test, p of x", "", "p"),
-    Column("runs_p_y", "Runs test, p of y", "", "p"),
-    Column("ks_p_x", "Kolmogorov-Smirnov, p of x", "", "p"),
-    Column("ks_p_y", "Kolmogorov-Smirnov, p of y", "", "p"),
+TRIANGULATIONS = Declaration(
+    "triangulations",
+    "Triangulations",
+    (
+        METHOD,
+        DISTRIBUTION,
+        N_POINTS,
+        Column("replicate", "Repetition", "", "int"),
+        Column("n_triangles", "Triangles", "triangles", "int"),
+        Column("mean_lepp", "Mean LEPP", "triangles", "fixed4"),
+        Column("sd_lepp", "SD of LEPP", "triangles", "fixed4"),
+        Column("max_lepp", "Largest LEPP", "triangles", "int"),
+        Column("runs_p_x", "Runs test, p of x", "", "p"),
+        Column("runs_p_y", "Runs test, p of y", "", "p"),
+        Column("ks_p_x", "Kolmogorov-Smirnov, p of x", "", "p"),
+        Column("ks_p_y", "Kolmogorov-Smirnov, p of y", "", "p"),
+    ),
+    note="One row a triangulation. results.parquet beside this page has more columns of each.",
 )
-_SAMPLE = (
+
+SAMPLED_POINTS = Declaration(
+    "sampled_points",
+    "Sampled points",
+    (
+        DISTRIBUTION,
+        N_POINTS,
+        Column("point", "Point", "", "int"),
+        Column("x", "x", "", "fixed4"),
+        Column("y", "y", "", "fixed4"),
+    ),
+    note="The first {shown} of {size:,} points of repetition 0.",
+)
+
+TABLE_4 = Declaration(
+    "table_4",
+    "Table 4, ours and the paper's",
+    (
+        METHOD,
+        DISTRIBUTION,
+        N_POINTS,
+        Column("mean_triangles", "Mean triangles", "triangles", "fixed2"),
+        Column("mean_max_lepp", "Mean largest LEPP", "triangles", "fixed2"),
+        Column("mean_lepp", "Mean LEPP", "triangles", "fixed4"),
+        Column("published_mean", "Paper's mean", "triangles", "fixed4"),
+        Column("difference", "Difference", "standard errors", "fixed2"),
+        Column("sd_between", "SD of the means", "triangles", "fixed4"),
+        Column("published_sd", "Paper's SD", "triangles", "fixed4"),
+        Column("sd_within", "SD inside a triangulation", "triangles", "fixed4"),
+    ),
+    note="The paper prints this table for the uniform distribution. Its last column is called the "
+    "average of the standard deviations; its values are those of the SD of the means.",
+)
+
+FAILURES = Declaration(
+    "failures",
+    "Tasks that failed",
+    (
+        METHOD,
+        DISTRIBUTION,
+        N_POINTS,
+        Column("replicate", "Repetition", "", "int"),
+        Column("error", "Error"),
+    ),
+    note="A failed task is tried again when the study is run again in the same directory.",
+)
+
+#: What its rows have in common; each method has a column of its own beside.
+_STATEMENT = (
     DISTRIBUTION,
-    N_POINTS,
-    Column("point", "Point", "", "int"),
-    Column("x", "x", "", "fixed4"),
-    Column("y", "y", "", "fixed4"),
+    Column("source", "Where"),
+    Column("statement", "The paper's statement"),
+)
+_STATEMENTS_COMPARED = Declaration(
+    "statements_compared",
+    "Which of the paper's statements hold for which triangulation",
+    _STATEMENT,
 )
 
 
-_TABLE_4 = (
-    METHOD,
-    DISTRIBUTION,
-    N_POINTS,
-    Column("mean_triangles", "Mean triangles", "triangles", "fixed2"),
-    Column("mean_max_lepp", "Mean largest LEPP", "triangles", "fixed2"),
-    Column("mean_lepp", "Mean LEPP", "triangles", "fixed4"),
-    Column("published_mean", "Paper's mean", "triangles", "fixed4"),
-    Column("difference", "Difference", "standard errors", "fixed2"),
-    Column("sd_between", "SD of the means", "triangles", "fixed4"),
-    Column("published_sd", "Paper's SD", "triangles", "fixed4"),
-    Column("sd_within", "SD inside a triangulation", "triangles", "fixed4"),
-)
-_FAILURES = (
-    METHOD,
-    DISTRIBUTION,
-    N_POINTS,
-    Column("replicate", "Repetition", "", "int"),
-    Column("error", "Error"),
-)
+def statements_compared_by(methods: Sequence[str]) -> Declaration:
+    """Declare the table of the paper's statements with a column a method."""
+    verdicts = [Column(name, METHODS[name].title, "", "verdict") for name in methods]
+    return replace(_STATEMENTS_COMPARED, columns=(*_STATEMENT, *verdicts))
 
 
-def table_4(groups: Table, reproduction: Table) -> Table:
+def report_tables(tables: Tables, results: pd.DataFrame, design: Design) -> Iterator[Table]:
+    """Make the report's own tables.
+
+    Parameters
+    ----------
+    tables : Tables
+        Those of the analysis.
+    results : pandas.DataFrame
+        A row a task.
+    design : Design
+    """
+    yield table_4(tables)
+    yield statements_compared(tables, design.methods)
+    yield TRIANGULATIONS.of_frame(_columns_of(results[results["error"].isna()], TRIANGULATIONS))
+    yield FAILURES.of_frame(_columns_of(results[results["error"].notna()], FAILURES))
+    yield sampled_points(design)
+
+
+def _columns_of(frame: pd.DataFrame, declared: Declaration) -> pd.DataFrame:
+    return frame[declared.column_names].reset_index(drop=True)
+
+
+def table_4(tables: Tables) -> Table:
     """Table 4 of every view, with the published values where there are some."""
     keys = ["method", "distribution", "n_points"]
-    ours = groups.frame[groups.frame["triangulations"] > 0]
-    ours = ours[[c.name for c in _TABLE_4 if c.name in ours.columns]]
-    printed = reproduction.frame[reproduction.frame["published_table"] == 4]
-    mean = printed[printed["quantity"] == "mean LEPP"].set_index(keys)
-    sd = printed[printed["quantity"] == "standard deviation"].set_index(keys)
+    groups = tables.rows(GROUPS).frame
+    ours = groups[groups["triangulations"] > 0]
+    ours = ours[[name for name in TABLE_4.column_names if name in GROUPS.column_names]]
+
+    def printed(quantity: str) -> pd.DataFrame:
+        rows = tables.rows(REPRODUCTION, published_table=4, quantity=quantity)
+        return rows.frame.set_index(keys)
+
+    mean, sd = printed(MEAN_LEPP), printed(SD_BETWEEN)
     beside = pd.DataFrame(
         {
             "published_mean": mean["published"],
@@ -69,68 +152,30 @@ def table_4(groups: Table, reproduction: Table) -> Table:
             "published_sd": sd["published"],
         }
     )
-    frame = ours.join(beside, on=keys)[[column.name for column in _TABLE_4]]
-    note = (
-        "The paper prints this table for the uniform distribution. Its last column is called the "
-        "average of the standard deviations; its values are those of the SD of the means."
-    )
-    title = "Table 4, ours and the paper's"
-    return Table("table_4", title, frame.reset_index(drop=True), _TABLE_4, note)
+    return TABLE_4.of_frame(_columns_of(ours.join(beside, on=keys), TABLE_4))
 
 
-def statements_compared(statements: Table, methods: tuple[str, ...]) -> Table:
+def statements_compared(tables: Tables, methods: tuple[str, ...]) -> Table:
     """Whether each statement of the paper holds, a column a method."""
-    rows = statements.frame.pivot(
-        index=["distribution", "source", "statement"], columns="method", values="holds"
-    )
-    order = statements.frame[["distribution", "source", "statement"]].drop_duplicates()
-    frame = order.join(rows[list(methods)], on=list(order.columns)).reset_index(drop=True)
-    columns = (
-        DISTRIBUTION,
-        Column("source", "Where"),
-        Column("statement", "The paper's statement"),
-        *(Column(method, METHOD_NAMES[method]) for method in methods),
-    )
-    title = "Which of the paper's statements hold for which triangulation"
-    return Table("statements_compared", title, frame, columns)
-
-
-def triangulations(results: pd.DataFrame) -> Table:
-    """Every triangulation that succeeded, a row each."""
-    done = results[results["error"].isna()]
-    frame = done[[column.name for column in _TRIANGULATIONS]].reset_index(drop=True)
-    note = "One row a triangulation. results.parquet beside this page has more columns of each."
-    return Table("triangulations", "Triangulations", frame, _TRIANGULATIONS, note)
-
-
-def failures(results: pd.DataFrame) -> Table:
-    """Every task that failed, with its error."""
-    failed = results[results["error"].notna()]
-    frame = failed[[column.name for column in _FAILURES]].reset_index(drop=True)
-    note = "A failed task is tried again when the study is run again in the same directory."
-    return Table("failures", "Tasks that failed", frame, _FAILURES, note)
+    statements = tables.rows(STATEMENTS).frame
+    shared = [column.name for column in _STATEMENT]
+    rows = statements.pivot(index=shared, columns="method", values="holds")
+    order = statements[shared].drop_duplicates()
+    frame = order.join(rows[list(methods)], on=shared).reset_index(drop=True)
+    return statements_compared_by(methods).of_frame(frame)
 
 
 def sampled_points(design: Design) -> Table:
     """Draw the first points of the first point set of each distribution (Figure 3)."""
     size = next((size for size in design.sizes if size >= SCATTER_POINTS), design.sizes[-1])
-    frames = []
-    for distribution in design.distributions:
-        points = sample_points(
-            distribution, size, 0, seed=design.seed, correlation=design.correlation
-        )[:SCATTER_POINTS]
-        frames.append(
-            pd.DataFrame(
-                {
-                    "distribution": distribution,
-                    "n_points": size,
-                    "point": range(len(points)),
-                    "x": points[:, 0],
-                    "y": points[:, 1],
-                }
-            )
-        )
-    note = f"The first {min(size, SCATTER_POINTS)} of {size:,} points of repetition 0."
-    return Table(
-        "sampled_points", "Sampled points", pd.concat(frames, ignore_index=True), _SAMPLE, note
-    )
+
+    def rows() -> Iterator[Row]:
+        for distribution in design.distributions:
+            points = sample_points(
+                distribution, size, 0, seed=design.seed, correlation=design.correlation
+            )[:SCATTER_POINTS]
+            key: Row = {"distribution": distribution, "n_points": size}
+            for point, (x, y) in zip(np.arange(len(points)), points, strict=True):
+                yield key | {"point": point, "x": x, "y": y}
+
+    return SAMPLED_POINTS.table(rows(), shown=min(size, SCATTER_POINTS), size=size)

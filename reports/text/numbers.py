@@ -1,8 +1,4 @@
-"""Numbers as a reader sees them: the one place that decides their digits.
-
-The page's script follows the same rules for the cells of tables (``static/tables.js``); a test
-holds the two together.
-"""
+"""Numbers as a reader sees them: the one place that decides their digits."""
 
 import math
 import re
@@ -30,10 +26,12 @@ def show(value: object, how: str) -> str:
     str
         A dash for what could not be computed.
     """
-    if how == "text":
-        return _DASH if missing(value) else str(value)
     if missing(value):
         return _DASH
+    if how in ("text", "verdict"):
+        return str(value)
+    if how == "name":
+        return str(value).replace("_", " ")
     number = float(value)  # type: ignore[arg-type]  # a numeric format promises a number
     kind, digits = _split(how)
     if not math.isfinite(number):

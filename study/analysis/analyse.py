@@ -1,59 +1,71 @@
 """All tables of a study from its results."""
 
-from collections.abc import Iterable
 from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 import pandas as pd
 
 from study.analysis import (
-    assumptions,
-    bounds,
-    comparison,
-    games_howell,
-    groups,
-    paths,
-    randomness,
-    regression,
-    theory,
-    variance,
-    worst_case,
+    bound_tests,
+    group_assumptions,
+    group_summaries,
+    method_comparison,
+    pairwise_comparisons,
+    path_lengths,
+    point_randomness,
+    regressions,
+    terminal_regions,
+    theorems,
+    variance_analysis,
+    worst_case_strip,
 )
-from study.analysis import (
-    regions as terminal_regions,
-)
-from study.analysis.measurements import Measurements, Missing
-from study.analysis.table import DISTRIBUTION, METHOD, Column, Table
+from study.analysis.building import build
+from study.analysis.measurements import Measurements
+from study.analysis.table import DISTRIBUTION, METHOD, Column, Declaration, Tables
 from study.paper import reproduction, statements
 
 if TYPE_CHECKING:
     from study.design.design import Design
 
-_BUILDERS = (
-    randomness.randomness,
-    assumptions.levene,
-    assumptions.shapiro,
-    assumptions.qq,
-    variance.anova,
-    games_howell.pairs,
-    bounds.bounds,
-    theory.neighbor_types,
-    theory.theorem_1,
-    theory.theorem_2,
-    paths.termination,
-    paths.law,
-    terminal_regions.regions,
-    terminal_regions.region_sizes,
-    comparison.methods,
-    comparison.growth,
+MISSING = Declaration(
+    "missing",
+    "What could not be computed",
+    (METHOD, DISTRIBUTION, Column("what", "Not computed"), Column("why", "Why")),
 )
 
-_MISSING = (METHOD, DISTRIBUTION, Column("what", "Not computed"), Column("why", "Why"))
+#: In the order in which what is missing is told; who needs whom, the builders say themselves.
+BUILDERS = (
+    group_summaries.groups,
+    group_summaries.overview,
+    point_randomness.randomness,
+    point_randomness.uniformity,
+    group_assumptions.levene,
+    group_assumptions.shapiro,
+    group_assumptions.qq,
+    variance_analysis.anova,
+    pairwise_comparisons.pairs,
+    bound_tests.bounds,
+    theorems.neighbor_types,
+    theorems.theorem_1,
+    theorems.theorem_2,
+    path_lengths.termination,
+    path_lengths.law,
+    terminal_regions.regions,
+    terminal_regions.region_sizes,
+    method_comparison.methods,
+    method_comparison.growth,
+    worst_case_strip.worst_case,
+    regressions.regressions,
+    reproduction.reproduction,
+    reproduction.summary,
+    reproduction.overall,
+    statements.statements,
+)
 
 
 def analyse(
     results: pd.DataFrame, histograms: pd.DataFrame, regions: pd.DataFrame, design: "Design"
-) -> dict[str, Table]:
+) -> Tables:
     """Compute every table of a study.
 
     Parameters
@@ -69,36 +81,9 @@ def analyse(
 
     Returns
     -------
-    dict of str to Table
+    Tables
         By name. A table that the results do not suffice for has the rows that can be had; the
         table ``missing`` says what cannot, and why. The same results give the same tables.
     """
-    data = Measurements.of(results, histograms, regions, design)
-    missing: list[Missing] = []
-    tables: dict[str, Table] = {}
-
-    def add(*made: Table, lacking: Iterable[Missing] = ()) -> None:
-        tables.update({table.name: table for table in made})
-        missing.extend(lacking)
-
-    by_group = groups.groups(data)
-    overview = groups.overview(by_group, data)
-    add(overview, by_group, lacking=groups.missing_tasks(overview, data))
-    for build in _BUILDERS:
-        table, lacking = build(data)
-        add(table, lacking=lacking)
-    add(randomness.uniformity(data), worst_case.worst_case())
-
-    fits, lacking = regression.fit_all(data)
-    add(lacking=lacking)
-    table, lacking = regression.regressions(fits)
-    add(table, regression.coefficients(fits), regression.projections(fits), lacking=lacking)
-    add(regression.limits(fits), regression.curves(fits))
-
-    scoreboard, lacking = reproduction.reproduction(data, tables)
-    add(scoreboard, reproduction.summary(scoreboard), lacking=lacking)
-    add(reproduction.overall(scoreboard), statements.statements(data, tables))
-
-    rows = [asdict(entry) for entry in missing]
-    add(Table.from_rows("missing", "What could not be computed", _MISSING, rows))
-    return tables
+    tables, missing = build(BUILDERS, Measurements.of(results, histograms, regions, design))
+    return tables.adding(MISSING.table(asdict(entry) for entry in missing))

@@ -6,6 +6,7 @@ import numpy as np
 from scipy import special, stats
 
 from study.paper.published import Number
+from study.statistics.thresholds import AGREES_UP_TO, CLOSE_UP_TO
 
 AGREES, CLOSE, DIFFERS = "agrees", "close", "differs"
 PLAUSIBLE, IMPLAUSIBLE = "plausible draw", "implausible draw"
@@ -13,9 +14,6 @@ MISPRINT, NOT_COMPARABLE, NOT_RUN = "misprint", "not comparable", "not run"
 VERDICTS = (
     AGREES, CLOSE, DIFFERS, PLAUSIBLE, IMPLAUSIBLE, MISPRINT, NOT_COMPARABLE, NOT_RUN,
 )  # fmt: skip
-
-#: Standard errors up to which a number agrees, and up to which it is close.
-AGREES_UP_TO, CLOSE_UP_TO = 2.0, 3.0
 
 RULE = (
     f"agrees: within {AGREES_UP_TO:g} standard errors (19 of 20 numbers do by chance); close: "

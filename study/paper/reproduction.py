@@ -7,52 +7,79 @@ import numpy as np
 import pandas as pd
 from scipy import stats
 
-from study.analysis.measurements import SIGNIFICANCE, Measurements, Missing, Row
-from study.analysis.randomness import TESTS, point_sets
-from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Table
+from study.analysis.bound_tests import BOUNDS, UPPER_BOUND
+from study.analysis.building import Study, rows_of
+from study.analysis.group_assumptions import CENTERS, LEVENE, SHAPIRO
+from study.analysis.group_summaries import GROUPS
+from study.analysis.point_randomness import COORDINATES, TESTS, point_sets
+from study.analysis.regressions import COEFFICIENTS, LEAST_SQUARES, REGRESSIONS
+from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Declaration, Row
+from study.analysis.variance_analysis import ANOVA, CLASSICAL
 from study.paper import judging, published
 from study.paper.judging import NOT_COMPARABLE, NOT_RUN, Judgement
-from study.paper.published import REPETITIONS, SHOWN, Number
+from study.paper.published import REFERENCE_METHOD, REPETITIONS, SHOWN, Number
 from study.statistics.tails import log10_chi2_tail
+from study.statistics.thresholds import SIGNIFICANCE, TABLE_DIFFERS_BELOW
+
+
+def verdict_column(verdict: str) -> str:
+    """Name of the column that counts a verdict."""
+    return verdict.replace(" ", "_")
+
 
 _PUBLISHED_TABLE = Column("published_table", "Published table", "", "int")
 
-_REPRODUCTION = (
-    METHOD,
-    DISTRIBUTION,
-    _PUBLISHED_TABLE,
-    Column("quantity", "Quantity"),
-    N_POINTS,
-    Column("printed", "Printed"),
-    Column("published", "Published", "", "g6"),
-    Column("ours", "Ours", "", "g6"),
-    Column("standard_error", "Standard error", "", "g2"),
-    Column("difference", "Difference", "standard errors", "fixed2"),
-    Column("log10_ratio", "log10 of the ratio", "", "fixed1"),
-    Column("verdict", "Verdict"),
-    Column("rule", "Rule"),
-)
-
-_SUMMARY = (
-    METHOD,
-    _PUBLISHED_TABLE,
-    Column("numbers", "Numbers", "", "int"),
-    *(
-        Column(verdict.replace(" ", "_"), verdict.capitalize(), "", "int")
-        for verdict in judging.VERDICTS
+REPRODUCTION = Declaration(
+    "reproduction",
+    "The published numbers and ours",
+    (
+        METHOD,
+        DISTRIBUTION,
+        _PUBLISHED_TABLE,
+        Column("quantity", "Quantity"),
+        N_POINTS,
+        Column("printed", "Printed"),
+        Column("published", "Published", "", "g6"),
+        Column("ours", "Ours", "", "g6"),
+        Column("standard_error", "Standard error", "", "g2"),
+        Column("difference", "Difference", "standard errors", "fixed2"),
+        Column("log10_ratio", "log10 of the ratio", "", "fixed1"),
+        Column("verdict", "Verdict", "", "verdict"),
+        Column("rule", "Rule"),
     ),
+    note=f"{judging.RULE}. Some of so many numbers must differ by chance. The published numbers "
+    f"are of triangulations by insertion without flips, the method {REFERENCE_METHOD}; for any "
+    "other method the table shows how far it is from them, not an attempt to reproduce them.",
 )
 
-_OVERALL = (
-    METHOD,
-    DISTRIBUTION,
-    Column("quantity", "Quantity of Table 4"),
-    Column("chi2", "Chi-squared", "", "fixed1"),
-    Column("df", "Df", "", "int"),
-    Column("p", "p", "", "p"),
-    Column("log10_p", "log10 p", "", "log10p"),
-    Column("furthest", "Largest difference", "standard errors", "fixed2"),
-    Column("verdict", "Verdict"),
+SUMMARY = Declaration(
+    "reproduction_summary",
+    "Verdicts on the published numbers",
+    (
+        METHOD,
+        _PUBLISHED_TABLE,
+        Column("numbers", "Numbers", "", "int"),
+        *(Column(verdict_column(v), v.capitalize(), "", "int") for v in judging.VERDICTS),
+    ),
+    note=judging.RULE,
+)
+
+OVERALL = Declaration(
+    "reproduction_overall",
+    "Table 4 as a whole",
+    (
+        METHOD,
+        DISTRIBUTION,
+        Column("quantity", "Quantity of Table 4"),
+        Column("chi2", "Chi-squared", "", "fixed1"),
+        Column("df", "Df", "", "int"),
+        Column("p", "p", "", "p"),
+        Column("log10_p", "log10 p", "", "log10p"),
+        Column("furthest", "Largest difference", "standard errors", "fixed2"),
+        Column("verdict", "Verdict", "", "verdict"),
+    ),
+    note="Sum of the squared differences, in standard errors, of all groups of Table 4 that were "
+    f"run. It agrees unless p is below {TABLE_DIFFERS_BELOW}.",
 )
 
 _NOT_RUN = Judgement(np.nan, np.nan, np.nan, NOT_RUN, "the run has not enough of this group")
@@ -64,112 +91,74 @@ _OTHER_DESIGN = Judgement(
 Judged = Iterator[tuple[Number, Judgement]]
 
 
-def reproduction(data: Measurements, tables: dict[str, Table]) -> tuple[Table, list[Missing]]:
-    """Judge every number of Tables 1 to 7.
-
-    Parameters
-    ----------
-    data : Measurements
-    tables : dict of str to Table
-        Our groups, levene, shapiro, anova, bounds, regressions and coefficients.
-    """
-    rows: list[Row] = []
-    missing = []
-    for method in data.design.methods:
+@rows_of(REPRODUCTION, needs=(GROUPS, LEVENE, SHAPIRO, ANOVA, BOUNDS, REGRESSIONS, COEFFICIENTS))
+def reproduction(study: Study) -> Iterator[Row]:
+    """Judge every number of Tables 1 to 7."""
+    design = study.data.design
+    for method in design.methods:
         for distribution in dict.fromkeys(n.distribution for n in published.table_6()):
-            if distribution not in data.design.distributions:
+            if distribution not in design.distributions:
                 why = f"the run has no {distribution} points"
-                missing.append(Missing(method, distribution, "comparison with the paper", why))
-        for number, judgement in _judge(_Ours(data, tables, method)):
-            rows.append(
-                {
-                    "method": method,
-                    "distribution": number.distribution,
-                    "published_table": number.table,
-                    "quantity": number.quantity,
-                    "n_points": number.n_points,
-                    "printed": number.printed,
-                    "published": number.value,
-                }
-                | asdict(judgement)
-            )
-    note = (
-        f"{judging.RULE}. Some of so many numbers must differ by chance. The published numbers are "
-        "of triangulations by insertion without flips, the method incremental; for any other "
-        "method the table shows how far it is from them, not an attempt to reproduce them."
-    )
-    title = "The published numbers and ours"
-    return Table.from_rows("reproduction", title, _REPRODUCTION, rows, note), missing
+                study.lacks(method, distribution, "comparison with the paper", why)
+        for number, judgement in _judge(_Ours(study, method)):
+            yield {
+                "method": method,
+                "distribution": number.distribution,
+                "published_table": number.table,
+                "quantity": number.quantity,
+                "n_points": number.n_points,
+                "printed": number.printed,
+                "published": number.value,
+            } | asdict(judgement)
 
 
-def summary(reproduction: Table) -> Table:
+@rows_of(SUMMARY, needs=(REPRODUCTION,))
+def summary(study: Study) -> Iterator[Row]:
     """Count the verdicts by published table."""
-    rows: list[Row] = []
-    grouped = reproduction.frame.groupby(["method", "published_table"], sort=False)
-    for (method, number), found in grouped:
-        counts = found["verdict"].value_counts()
-        row: Row = {"method": method, "published_table": number, "numbers": len(found)}
-        row |= {v.replace(" ", "_"): int(counts.get(v, 0)) for v in judging.VERDICTS}
-        rows.append(row)
-    rows.sort(key=lambda row: str(row["published_table"]))
-    order = list(dict.fromkeys(reproduction.frame["method"]))
-    rows.sort(key=lambda row: order.index(str(row["method"])))
-    title = "Verdicts on the published numbers"
-    return Table.from_rows("reproduction_summary", title, _SUMMARY, rows, judging.RULE)
+    frame = study.tables.rows(REPRODUCTION).frame
+    for method in study.data.design.methods:
+        for number, judged in frame[frame["method"] == method].groupby("published_table"):
+            counts = judged["verdict"].value_counts()
+            row: Row = {"method": method, "published_table": number, "numbers": len(judged)}
+            yield row | {verdict_column(v): int(counts.get(v, 0)) for v in judging.VERDICTS}
 
 
-def overall(reproduction: Table) -> Table:
+@rows_of(OVERALL, needs=(REPRODUCTION,))
+def overall(study: Study) -> Iterator[Row]:
     """Chi-squared over all groups of Table 4, for the means and the standard deviations."""
-    rows: list[Row] = []
-    frame = reproduction.frame
-    for method in dict.fromkeys(frame["method"]):
-        for quantity in ("mean LEPP", "standard deviation", "mean triangles"):
-            z = frame.loc[
-                (frame["method"] == method) & (frame["quantity"] == quantity), "difference"
-            ].dropna()
+    for method in study.data.design.methods:
+        for quantity in (published.MEAN_LEPP, published.SD_BETWEEN, published.MEAN_TRIANGLES):
+            rows = study.tables.rows(REPRODUCTION, method=method, quantity=quantity)
+            z = rows["difference"].dropna()
             if z.empty:
                 continue
             chi2, df = float((z**2).sum()), len(z)
             p = float(stats.chi2.sf(chi2, df))
-            rows.append(
-                {
-                    "method": method,
-                    "distribution": SHOWN,
-                    "quantity": quantity,
-                    "chi2": chi2,
-                    "df": df,
-                    "p": p,
-                    "log10_p": log10_chi2_tail(chi2, df),
-                    "furthest": z.loc[z.abs().idxmax()],
-                    "verdict": "differs" if p < 0.01 else "agrees",
-                }
-            )
-    note = (
-        "Sum of the squared differences, in standard errors, of all groups of Table 4 that were "
-        "run. It agrees unless p is below 0.01."
-    )
-    title = "Table 4 as a whole"
-    return Table.from_rows("reproduction_overall", title, _OVERALL, rows, note)
+            yield {
+                "method": method,
+                "distribution": SHOWN,
+                "quantity": quantity,
+                "chi2": chi2,
+                "df": df,
+                "p": p,
+                "log10_p": log10_chi2_tail(chi2, df),
+                "furthest": z.loc[z.abs().idxmax()],
+                "verdict": judging.DIFFERS if p < TABLE_DIFFERS_BELOW else judging.AGREES,
+            }
 
 
 class _Ours:
     """Our numbers of one method, looked up as the published ones are named."""
 
-    def __init__(self, data: Measurements, tables: dict[str, Table], method: str) -> None:
-        self.data = data
+    def __init__(self, study: Study, method: str) -> None:
+        self.data = study.data
         self.method = method
-        self._frames = {
-            name: table.frame[table.frame["method"] == method]
-            for name, table in tables.items()
-            if "method" in table.frame.columns
-        }
+        self._tables = study.tables
 
-    def row(self, table: str, **wanted: object) -> "pd.Series | None":
+    def row(self, declared: Declaration, **wanted: object) -> "pd.Series | None":
         """Find the row of a table of ours, or None."""
-        frame = self._frames[table]
-        for name, value in wanted.items():
-            frame = frame[frame[name] == value]
-        return None if frame.empty else frame.iloc[0]
+        rows = self._tables.rows(declared, method=self.method, **wanted)
+        return None if rows.empty else rows.first
 
     @property
     def has_published_design(self) -> bool:
@@ -180,10 +169,10 @@ class _Ours:
 
 def _judge(ours: _Ours) -> Judged:
     yield from _table_1(ours)
-    yield from _f_test(ours, 2, "levene", center="mean", column="f")
+    yield from _f_test(ours, 2, LEVENE, "f", center=CENTERS[0])
     yield from _table_3(ours)
     yield from _table_4(ours)
-    yield from _f_test(ours, 5, "anova", test="classical", column="statistic")
+    yield from _f_test(ours, 5, ANOVA, "statistic", test=CLASSICAL)
     yield from _table_6(ours)
     yield from _table_7(ours)
 
@@ -192,16 +181,16 @@ def _table_1(ours: _Ours) -> Judged:
     sets = point_sets(ours.data)
     sets = sets[sets["distribution"] == SHOWN]
     numbers = published.table_1()
-    columns = [f"{prefix}_{coordinate}" for prefix in TESTS.values() for coordinate in "xy"]
+    columns = [f"{prefix}_{coordinate}" for prefix in TESTS.values() for coordinate in COORDINATES]
     for place, number in enumerate(numbers):
         values = sets[columns[place % len(columns)]].dropna()
         rank = float((values <= number.value).mean()) if len(values) else np.nan
         yield number, judging.of_unnamed_p(rank, number, len(numbers), SIGNIFICANCE)
 
 
-def _f_test(ours: _Ours, table: int, name: str, column: str, **wanted: str) -> Judged:
+def _f_test(ours: _Ours, table: int, declared: Declaration, column: str, **wanted: str) -> Judged:
     df1, df2, f, p = published.f_test(table)
-    row = ours.row(name, distribution=SHOWN, **wanted)
+    row = ours.row(declared, distribution=SHOWN, **wanted)
     for df, value in (("df_group", df1), ("df_residual", df2)):
         number = Number(table, f"{df.replace('df_', 'degrees of freedom, ')}", value, 0)
         if row is None:
@@ -221,7 +210,7 @@ def _f_test(ours: _Ours, table: int, name: str, column: str, **wanted: str) -> J
 
 def _table_3(ours: _Ours) -> Judged:
     for w, p in published.table_3():
-        row = ours.row("shapiro", distribution=SHOWN, n_points=w.n_points)
+        row = ours.row(SHAPIRO, distribution=SHOWN, n_points=w.n_points)
         for number, name in ((w, "w"), (p, "p")):
             found = _NOT_RUN if row is None else judging.of_null_p(row[name], p.value, row["p"])
             yield number, found
@@ -229,7 +218,7 @@ def _table_3(ours: _Ours) -> Judged:
 
 def _table_4(ours: _Ours) -> Judged:
     for triangles, largest, mean, sd in published.table_4():
-        row = ours.row("groups", distribution=SHOWN, n_points=mean.n_points)
+        row = ours.row(GROUPS, distribution=SHOWN, n_points=mean.n_points)
         if row is None or not row["sd_between"] > 0:
             yield from ((number, _NOT_RUN) for number in (triangles, largest, mean, sd))
             continue
@@ -254,7 +243,10 @@ def _table_4(ours: _Ours) -> Judged:
 def _table_6(ours: _Ours) -> Judged:
     for number in published.table_6():
         row = ours.row(
-            "bounds", distribution=number.distribution, n_points=number.n_points, bound=4
+            BOUNDS,
+            distribution=number.distribution,
+            n_points=number.n_points,
+            bound=UPPER_BOUND,
         )
         if row is None:
             yield number, _NOT_RUN
@@ -269,7 +261,7 @@ def _table_6(ours: _Ours) -> Judged:
 def _table_7(ours: _Ours) -> Judged:
     slope = published.linear_slope_as_printed()
     for model, term, number in published.coefficients():
-        row = _regression(ours, "coefficients", model, term=term)
+        row = _regression(ours, COEFFICIENTS, model, term=term)
         if row is None or isinstance(row, Judgement):
             yield number, row or _NOT_RUN
             if (model, term) == ("linear", "b"):
@@ -280,7 +272,7 @@ def _table_7(ours: _Ours) -> Judged:
         if (model, term) == ("linear", "b"):
             yield slope, _misprint(found, slope)
     for model, r2, p in published.fits():
-        row = _regression(ours, "regressions", model)
+        row = _regression(ours, REGRESSIONS, model)
         if row is None or isinstance(row, Judgement):
             yield from ((number, row or _NOT_RUN) for number in (r2, p))
             continue
@@ -290,9 +282,9 @@ def _table_7(ours: _Ours) -> Judged:
 
 
 def _regression(
-    ours: _Ours, table: str, model: str, **wanted: str
+    ours: _Ours, declared: Declaration, model: str, **wanted: str
 ) -> "pd.Series | Judgement | None":
-    row = ours.row(table, distribution=SHOWN, model=model, fitting="least squares", **wanted)
+    row = ours.row(declared, distribution=SHOWN, model=model, fitting=LEAST_SQUARES, **wanted)
     return row if row is None or ours.has_published_design else _OTHER_DESIGN
 
 

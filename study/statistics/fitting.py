@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import optimize, stats
 
-from study.analysis.measurements import Groups, NotEnough
+from study.statistics.groups import Groups, NotEnough
 from study.statistics.intervals import t_quantile
 from study.statistics.models import ASYMPTOTE, SATURATING, LinearModel, SaturatingModel, logit
 from study.statistics.tails import log10_f_tail

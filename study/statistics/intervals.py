@@ -1,9 +1,11 @@
-"""Intervals of means, and what an interval says of a bound."""
+"""Intervals of means and of ratios, and what an interval says of a bound."""
 
 import numpy as np
 from scipy import special
 
-from study.analysis.measurements import CONFIDENCE, variance
+from study.statistics.groups import variance
+from study.statistics.thresholds import CONFIDENCE
+from study.statistics.verdicts import NO, UNDECIDED, YES
 
 
 def t_quantile(df: float) -> float:
@@ -33,8 +35,35 @@ def mean_interval(values: np.ndarray) -> tuple[float, float, float]:
     return mean, float(mean - half), float(mean + half)
 
 
+def ratio_interval(ended: np.ndarray, reached: np.ndarray) -> tuple[float, float, float, float]:
+    """Ratio of two sums over independent triangulations, with its linearised standard error.
+
+    Parameters
+    ----------
+    ended, reached : (r,) int64 ndarray
+        A pair of counts a triangulation.
+
+    Returns
+    -------
+    rate, standard_error, low, high : float
+        Error and t interval are NaN for fewer than two triangulations, or equal ratios.
+
+    Notes
+    -----
+    Cochran (1977), Sampling Techniques, section 6.3.
+    """
+    r, total = len(reached), reached.sum()
+    rate = ended.sum() / total
+    squares = ((ended - rate * reached) ** 2).sum()
+    if r < 2 or not squares > 0:
+        return float(rate), np.nan, np.nan, np.nan
+    error = np.sqrt(r / (r - 1) * squares) / total
+    half = t_quantile(r - 1) * error
+    return float(rate), float(error), float(max(rate - half, 0)), float(min(rate + half, 1))
+
+
 def at_least(bound: float, low: float, high: float) -> str:
     """Whether a quantity with the interval [low, high] is at least `bound`: yes, no, undecided."""
     if low >= bound:
-        return "yes"
-    return "no" if high < bound else "undecided"
+        return YES
+    return NO if high < bound else UNDECIDED

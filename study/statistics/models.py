@@ -77,6 +77,7 @@ LINEAR_MODELS = (
         lambda x: np.column_stack([np.ones_like(x), np.log2(x)]),
     ),
 )
+LOGARITHMIC = LINEAR_MODELS[-1]
 
 
 @dataclass(frozen=True)

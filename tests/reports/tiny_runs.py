@@ -3,7 +3,9 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from lepp import METHODS
+import numpy as np
+
+from lepp import METHODS, Method
 from study.design.design import Design
 from study.results.store import Store
 from study.run.experiment import Outcome, Task, tasks_of
@@ -14,6 +16,38 @@ DESIGN = Design(
     sizes=(300, 600, 1200, 2400, 4800),
     repetitions=6,
 )
+
+#: A small design with enough sizes for every statistic.
+SMALL = Design(distributions=("uniform",), sizes=(200, 300, 400, 600, 800), repetitions=4)
+
+
+def other_orders() -> list[Method]:
+    """Methods that no registry has: plain insertion of the points in two other orders."""
+
+    def inserting(order_of: Callable[[np.ndarray], np.ndarray]) -> Callable:
+        def build(points: np.ndarray) -> tuple:
+            order = order_of(points).astype(np.int32)
+            triangles, neighbors, repeated, _ = METHODS["incremental"].build(points[order])
+            return order[triangles], neighbors, order[repeated], None
+
+        return build
+
+    return [
+        Method(
+            "by_x",
+            "Swept",
+            "swept",
+            "inserts the points from left to right",
+            inserting(lambda points: np.argsort(points[:, 0], kind="stable")),
+        ),
+        Method(
+            "backwards",
+            "Reversed insertion",
+            "reversed",
+            "inserts the points in reverse order",
+            inserting(lambda points: np.arange(len(points))[::-1]),
+        ),
+    ]
 
 
 def store_run(

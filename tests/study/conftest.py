@@ -37,4 +37,4 @@ def paper_study():
 @pytest.fixture(autouse=True)
 def _short_worst_case(monkeypatch):
     """Keep the million triangles for the fixtures above, which are made before."""
-    monkeypatch.setattr("study.analysis.worst_case._SIZES", (1, 2, 3))
+    monkeypatch.setattr("study.analysis.worst_case_strip._SIZES", (1, 2, 3))

@@ -1,75 +1,54 @@
-"""Plain incremental triangulation: points inserted in the given order, no edge is ever flipped.
+"""Incremental insertion, second part: the points inside the root triangles.
 
-A point inside a triangle splits it in three, a point on an edge splits the triangles beside it in
-two, a point outside the hull is joined to every hull vertex that it sees.
-
-Without flips nothing outside a triangle ever changes its inside, so the insertion is built like
-quicksort rather than point by point. `lepp.triangulate.plain.hull` inserts only the points that
-were outside the hull, or on it, at their turn; every other point is handed to the hull triangle
-that holds it.
-`_subdivide` then splits each of these by its first point, partitions the others, stably, among the
-parts, and goes on depth first: no point location, sequential memory, and neighbouring triangles get
-neighbouring numbers. The result is that of one-by-one insertion, triangle for triangle.
-
-Edges carry the adjacency. Edge e has the half-edges 2e and 2e + 1, one for each side, so the twin
-of half-edge h is h ^ 1. The half-edge of a triangle (a, b, c) across from a runs from b to c.
+Each triangle is split by the first of its points, the others are partitioned among the parts, and
+the parts are split in their turn, depth first.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
 from lepp.geometry.lengths import is_certain, rank, squared_length
-from lepp.geometry.predicates import ORIENTATION_BOUND, UNDERFLOW
-from lepp.jit import kernel
-from lepp.jit.memory import in_one_block
-from lepp.triangulate.plain.hull import empty_hull, orient, parts_of, same, sweep_hull
+from lepp.geometry.predicates import orient, same, turn_error
+from lepp.jit import inlined, kernel
+from lepp.triangulate.plain.edges import parts_of
+from lepp.triangulate.plain.waiting import INSIDE, ON_SIDE
 
 
-def incremental(
-    points: np.ndarray,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray | None]:
-    """Triangulate by plain insertion in the given order.
+class Lists(NamedTuple):
+    """Lists of points, each in the order of insertion, one behind the other."""
 
-    Parameters
-    ----------
-    points : (n, 2) float64 ndarray
-        Finite, C-contiguous.
+    x: np.ndarray  # (k,) float64
+    y: np.ndarray  # (k,) float64
+    ident: np.ndarray  # (k,) int32, index of the point; its complement (~) for one on a side
 
-    Returns
-    -------
-    triangles, neighbors : (m, 3) int32 ndarray
-        As in `lepp.Triangulation`; m is 0 when all points lie on one line.
-    repeated : (k, 2) int32 ndarray
-        Points left out and the points that they repeat.
-    ranks : (m,) uint8 ndarray or None
-        As from `lepp.geometry.lengths.edge_ranks`: here the coordinates are at hand. None where
-        lengths are so near, or so extreme, that only exact arithmetic can find them.
-    """
-    n = len(points)
-    hull = empty_hull(n)
-    roots = np.empty((2 * n, 6), np.int32)
-    split = np.zeros(4 * n, np.int32)
-    n_roots, n_edges = sweep_hull(points, hull, roots, split)
-    starts, room = _bounds(hull.place, hull.also, n_roots)
-    size = int(starts[-1]) + 3 * room  # the lists, and room behind them for three stacks of others
-    x, y, ident = in_one_block((size, np.float64), (size, np.float64), (size, np.int32))
-    _gather(points, hull.place, hull.also, hull.on_edge, starts, x, y, ident)
-    triangles = np.empty((2 * n, 3), np.int32)
-    half_edges = np.empty((2 * n, 3), np.int32)
-    owners = np.zeros(8 * n, np.int32)
-    ranks = np.empty(2 * n, np.uint8)
-    n_triangles, certain = _subdivide(
-        points, roots, starts, room, x, y, ident, n_edges, split, hull.repeats,
-        triangles, half_edges, owners, ranks,
-    )  # fmt: skip
-    neighbors = half_edges[:n_triangles]
-    _link(neighbors, owners)
-    left_out = np.flatnonzero(hull.repeats >= 0).astype(np.int32)
-    repeated = np.column_stack((left_out, hull.repeats[left_out]))
-    return triangles[:n_triangles], neighbors, repeated, ranks[:n_triangles] if certain else None
+
+class Mesh(NamedTuple):
+    """Triangles that are final, in the order in which they became so."""
+
+    triangles: np.ndarray  # (2 n, 3) int32
+    half_edges: np.ndarray  # (2 n, 3) int32, across from each vertex
+    owners: np.ndarray  # (8 n,) int32, the triangle of each half-edge, plus one; else zero
+    ranks: np.ndarray  # (2 n,) uint8
+
+
+# A triangle to be split.
+JOB = np.dtype(
+    [
+        # Vertices, and the half-edges across from them.
+        *((name, np.int64) for name in ("a", "b", "c", "across_a", "across_b", "across_c")),
+        # Bounds of the list of its points, and the tops of the other two stacks of lists.
+        *((name, np.int64) for name in ("first", "stop", "top_2", "top_3")),
+        # Coordinates of the vertices.
+        *((name, np.float64) for name in ("a_x", "a_y", "b_x", "b_y", "c_x", "c_y")),
+        # Squared lengths of the sides.
+        *((name, np.float64) for name in ("b_c", "c_a", "a_b")),
+    ]
+)
 
 
 @kernel
-def _bounds(place, also, n_roots):
+def bounds(waiting, n_roots):
     """Find how many points each root triangle has.
 
     Returns
@@ -79,14 +58,15 @@ def _bounds(place, also, n_roots):
     room : int
         More than the points and their repetitions that can be on the lists of one root's parts.
     """
+    state, of, beyond = waiting.state, waiting.of, waiting.beyond
     count = np.zeros(n_roots, np.int64)
-    for i in range(len(place)):
-        if place[i] >= 0:
-            count[place[i]] += 1
-            if also[i]:
-                count[also[i] - 1] += 1
+    for i in range(len(state)):
+        if state[i] == INSIDE or state[i] == ON_SIDE:
+            count[of[i]] += 1
+            if state[i] == ON_SIDE and beyond[i] >= 0:
+                count[beyond[i]] += 1
     starts = np.zeros(n_roots + 1, np.int64)
-    room = 0
+    room = np.int64(0)
     for root in range(n_roots):
         starts[root + 1] = starts[root] + count[root]
         room = max(room, 2 * count[root] + 8)  # on an inner edge a point is on two lists
@@ -94,53 +74,25 @@ def _bounds(place, also, n_roots):
 
 
 @kernel
-def _gather(points, place, also, on_edge, starts, x, y, ident):
-    """Sort the points that are left by root triangle, in the order of insertion.
-
-    Parameters
-    ----------
-    x, y : (k,) float64 ndarray, output
-    ident : (k,) int32 ndarray, output
-        Index of the point; its complement (~) for a point on an edge.
-    """
+def gather(points, waiting, starts, lists):
+    """List the points that are left by root triangle, in the order of insertion."""
+    x, y, ident = lists
+    state, of, beyond = waiting.state, waiting.of, waiting.beyond
     end = starts[:-1].copy()
-    for i in range(len(place)):
-        root = place[i]
+    for i in range(len(state)):
+        if state[i] != INSIDE and state[i] != ON_SIDE:
+            continue
+        root = of[i]
         while root >= 0:
             k = end[root]
             end[root] = k + 1
-            x[k] = points[i, 0]
-            y[k] = points[i, 1]
-            ident[k] = ~i if on_edge[i] else i
-            root = also[i] - 1 if root == place[i] else -1
+            x[k], y[k] = points[i, 0], points[i, 1]
+            ident[k] = ~i if state[i] == ON_SIDE else i
+            root = beyond[i] if state[i] == ON_SIDE and root == of[i] else np.int32(-1)
 
 
 @kernel
-def _exact_parts(points, p, a, b, c, i):
-    """Tell which of the parts that p makes of (a, b, c) hold point i.
-
-    Returns
-    -------
-    int
-        Sum of 1 for (a, b, p), 2 for (p, b, c) and 4 for (a, p, c): two for a point between p and
-        a vertex, none for a point that repeats p.
-    """
-    to_a, to_b, to_c = orient(points, p, a, i), orient(points, p, b, i), orient(points, p, c, i)
-    parts = 0
-    if to_a >= 0 and to_b <= 0:
-        parts |= 1
-    if to_b >= 0 and to_c <= 0:
-        parts |= 2
-    if to_c >= 0 and to_a <= 0:
-        parts |= 4
-    return parts if to_a != 0 or to_b != 0 or to_c != 0 else 0
-
-
-@kernel
-def _subdivide(
-    points, roots, starts, room, x, y, ident, n_edges, split, repeats,
-    triangles, half_edges, owners, ranks,
-):  # fmt: skip
+def subdivide(points, roots, starts, room, lists, n_edges, split, repeats, mesh):
     """Insert the points of each root triangle, depth first.
 
     Parameters
@@ -148,18 +100,18 @@ def _subdivide(
     points : (n, 2) float64 ndarray
     roots : (r, 6) int32 ndarray
         Vertices and half-edges.
-    starts, room, x, y, ident
-        The points of each root, from `_bounds` and `_gather`.
+    starts : (r + 1,) int64 ndarray
+    room : int
+        Both from `bounds`.
+    lists : Lists
+        From `gather`, with room for three stacks behind the lists.
     n_edges : int
         Number of edges so far.
     split : (4 n,) int32 ndarray
         The first part of each edge that has been split, else 0.
     repeats : (n,) int32 ndarray
         Set for points left out.
-    triangles, half_edges : (2 n, 3) int32 ndarray, output
-    owners : (8 n,) int32 ndarray, output
-        The triangle of each half-edge, plus one; zero at the boundary.
-    ranks : (2 n,) uint8 ndarray, output
+    mesh : Mesh, output
 
     Returns
     -------
@@ -167,204 +119,282 @@ def _subdivide(
     certain : bool
         Whether the ranks are those of the exact lengths.
     """
-    # The lists of points are on three stacks, one after the other in x, y and ident. A triangle's
-    # list is on top of one of them, where the first of its parts keeps its points; the other parts
-    # put theirs on top of the other two. The first stack begins with the lists of all roots.
-    n_roots = len(starts) - 1
-    second = starts[n_roots] + room
+    # The lists of points are on three stacks, one after the other. A triangle's list is on top of
+    # one of them, where the first of its parts keeps its points; the other parts put theirs on top
+    # of the other two. The first stack begins with the lists of all roots.
+    x, y, ident = lists
+    triangles, half_edges, owners, ranks = mesh
+    second = starts[-1] + room
     third = second + room
-    # Triangles to be split: vertices, half-edges, bounds of the list, tops of the other stacks;
-    # coordinates of the vertices, squared lengths of the sides across from them.
-    jobs = np.empty((room, 10), np.int64)
-    shapes = np.empty((room, 9))
-    n_triangles = 0
+    jobs = np.empty(room, JOB)
+    t = 0  # triangles that are final
     certain = True
-    for root in range(n_roots - 1, -1, -1):
-        a, b, c = roots[root, 0], roots[root, 1], roots[root, 2]
-        across_a, across_b, across_c = roots[root, 3], roots[root, 4], roots[root, 5]
-        low, high = starts[root], starts[root + 1]
-        a_x, a_y = points[a, 0], points[a, 1]
-        b_x, b_y = points[b, 0], points[b, 1]
-        c_x, c_y = points[c, 0], points[c, 1]
-        b_c, c_a = squared_length(b_x - c_x, b_y - c_y), squared_length(c_x - a_x, c_y - a_y)
-        a_b = squared_length(a_x - b_x, a_y - b_y)
-        if low == high:
-            certain &= is_certain(b_c, c_a, a_b)
-            ranks[n_triangles] = rank(b_c, c_a, a_b)
-            _write(
-                triangles, half_edges, owners, n_triangles, a, b, c, across_a, across_b, across_c
-            )
-            n_triangles += 1
+    for root in range(len(starts) - 2, -1, -1):
+        row = roots[root]
+        a, b, c = np.int64(row[0]), np.int64(row[1]), np.int64(row[2])
+        across = (np.int64(row[3]), np.int64(row[4]), np.int64(row[5]))
+        corners = (
+            points[a, 0], points[a, 1], points[b, 0], points[b, 1], points[c, 0], points[c, 1]
+        )  # fmt: skip
+        squares = _squares(corners)
+        first, stop = starts[root], starts[root + 1]
+        if first == stop:
+            certain &= is_certain(*squares)
+            _write(triangles, half_edges, owners, ranks, t, (a, b, c), across, squares)
+            t += 1
             continue
-        _set(jobs, 0, a, b, c, across_a, across_b, across_c, low, high, second, third)
-        _shape(shapes, 0, a_x, a_y, b_x, b_y, c_x, c_y, b_c, c_a, a_b)
+        _push(jobs, 0, (a, b, c), across, (first, stop, second, third), corners, squares)
         n_jobs = 1
         while n_jobs:
+            # Take the triangle that was put down last, and split it by the first of its points.
             n_jobs -= 1
-            a, b, c = jobs[n_jobs, 0], jobs[n_jobs, 1], jobs[n_jobs, 2]
-            across_a, across_b, across_c = jobs[n_jobs, 3], jobs[n_jobs, 4], jobs[n_jobs, 5]
-            low, high, low2, low3 = (
-                jobs[n_jobs, 6],
-                jobs[n_jobs, 7],
-                jobs[n_jobs, 8],
-                jobs[n_jobs, 9],
-            )
-            a_x, a_y = shapes[n_jobs, 0], shapes[n_jobs, 1]
-            b_x, b_y = shapes[n_jobs, 2], shapes[n_jobs, 3]
-            c_x, c_y = shapes[n_jobs, 4], shapes[n_jobs, 5]
-            b_c, c_a, a_b = shapes[n_jobs, 6], shapes[n_jobs, 7], shapes[n_jobs, 8]
-            p = np.int64(ident[low])
-            p_x, p_y = x[low], y[low]
-            end1, end2, end3 = low, low2, low3
-            if p < 0:  # p lies on a side, which is to be ab
+            job = jobs[n_jobs]
+            first, stop, top_2, top_3 = job["first"], job["stop"], job["top_2"], job["top_3"]
+            p, p_x, p_y = np.int64(ident[first]), x[first], y[first]
+            on_side = p < 0
+            if on_side:
                 p = ~p
-                while orient(points, a, b, p) != 0:
-                    a, b, c = b, c, a
-                    a_x, a_y, b_x, b_y, c_x, c_y = b_x, b_y, c_x, c_y, a_x, a_y
-                    across_a, across_b, across_c = across_b, across_c, across_a
-                    b_c, c_a, a_b = c_a, a_b, b_c
+                while orient(points, job["a"], job["b"], p) != 0:
+                    _turn(job)  # until p is on the side from a to b
+            a, b, c = job["a"], job["b"], job["c"]
+            across_a, across_b, across_c = job["across_a"], job["across_b"], job["across_c"]
+            a_x, a_y, b_x, b_y, c_x, c_y = (
+                job["a_x"], job["a_y"], job["b_x"], job["b_y"], job["c_x"], job["c_y"]
+            )  # fmt: skip
+            b_c, c_a, a_b = job["b_c"], job["c_a"], job["a_b"]
+
+            # Partition the other points among the parts (a, b, p), (p, b, c) and (a, p, c); number
+            # the half-edges from p.
+            spans = (first, stop, top_2, top_3)
+            if on_side:  # the first part is flat
+                end_1 = first
+                end_2, end_3 = _partition_beside(points, x, y, ident, repeats, spans, p, c)
                 edge = across_c >> 1
                 if split[edge] == 0:  # else the triangle on the other side came first
                     split[edge] = n_edges
                     n_edges += 2
-                for k in range(low + 1, high):
-                    i = ident[k]
-                    q = i if i >= 0 else ~i
-                    side = orient(points, p, c, q)
-                    if side == 0:
-                        if same(points, p, q):
-                            repeats[q] = p
-                            continue
-                        i = ~q
-                    x_k, y_k = x[k], y[k]
-                    if side <= 0:
-                        x[end2], y[end2], ident[end2] = x_k, y_k, i
-                        end2 += 1
-                    if side >= 0:
-                        x[end3], y[end3], ident[end3] = x_k, y_k, i
-                        end3 += 1
                 a_to_p, to_b = parts_of(across_c, split[edge])
-                to_a = a_to_p ^ 1
-                to_c = 2 * n_edges
+                to_a, to_c = a_to_p ^ 1, 2 * n_edges
                 n_edges += 1
                 first_part = 1
             else:
-                ax, ay = a_x - p_x, a_y - p_y
-                bx, by = b_x - p_x, b_y - p_y
-                cx, cy = c_x - p_x, c_y - p_y
-                # No point of the triangle is farther from p: this bounds the error of all signs.
-                width = max(max(abs(ax), abs(bx)), abs(cx))
-                height = max(max(abs(ay), abs(by)), abs(cy))
-                bound = 2.0 * ORIENTATION_BOUND * (width * height) + UNDERFLOW
-                for k in range(low + 1, high):
-                    x_k, y_k, i = x[k], y[k], ident[k]
-                    dx, dy = x_k - p_x, y_k - p_y
-                    left_of_a = ax * dy - ay * dx
-                    left_of_b = bx * dy - by * dx
-                    left_of_c = cx * dy - cy * dx
-                    in1 = (left_of_a > 0.0) & (left_of_b < 0.0)
-                    in2 = (left_of_b > 0.0) & (left_of_c < 0.0)
-                    in3 = (left_of_c > 0.0) & (left_of_a < 0.0)
-                    if not (
-                        (abs(left_of_a) > bound)
-                        & (abs(left_of_b) > bound)
-                        & (abs(left_of_c) > bound)
-                    ):
-                        q = i if i >= 0 else ~i
-                        found = _exact_parts(points, p, a, b, c, q)
-                        in1, in2, in3 = (found & 1) != 0, (found & 2) != 0, (found & 4) != 0
-                        if found == 0:
-                            repeats[q] = p
-                        elif found & (found - 1):
-                            i = ~q
-                    # Written to all three lists, of which one grows: no branch to mispredict.
-                    x[end1], y[end1], ident[end1] = x_k, y_k, i
-                    x[end2], y[end2], ident[end2] = x_k, y_k, i
-                    x[end3], y[end3], ident[end3] = x_k, y_k, i
-                    end1 += in1
-                    end2 += in2
-                    end3 += in3
-                to_a, to_b, to_c = 2 * n_edges, 2 * n_edges + 2, 2 * n_edges + 4  # from p
+                end_1, end_2, end_3 = _partition(
+                    points, x, y, ident, repeats, spans, (p, a, b, c),
+                    (a_x - p_x, a_y - p_y, b_x - p_x, b_y - p_y, c_x - p_x, c_y - p_y),
+                )  # fmt: skip
+                to_a, to_b, to_c = 2 * n_edges, 2 * n_edges + 2, 2 * n_edges + 4
                 n_edges += 3
                 first_part = 0
+
+            # Put the parts down.
             p_a, p_b = squared_length(a_x - p_x, a_y - p_y), squared_length(b_x - p_x, b_y - p_y)
             p_c = squared_length(c_x - p_x, c_y - p_y)
             for part in range(first_part, 3):
-                u, v, w, across_u, across_v, across_w = a, b, c, across_a, across_b, across_c
-                u_x, u_y, v_x, v_y, w_x, w_y = a_x, a_y, b_x, b_y, c_x, c_y
-                v_w, w_u, u_v = b_c, c_a, a_b
                 if part == 0:
-                    w, w_x, w_y, v_w, w_u = p, p_x, p_y, p_b, p_a
-                    across_u, across_v = to_b ^ 1, to_a
-                    first, last, top2, top3 = low, end1, low2, low3
+                    vertices, across = (a, b, p), (to_b ^ 1, to_a, across_c)
+                    corners = (a_x, a_y, b_x, b_y, p_x, p_y)
+                    squares, spans = (p_b, p_a, a_b), (first, end_1, top_2, top_3)
                 elif part == 1:
-                    u, u_x, u_y, w_u, u_v = p, p_x, p_y, p_c, p_b
-                    across_v, across_w = to_c ^ 1, to_b
-                    first, last, top2, top3 = low2, end2, low3, end1
+                    vertices, across = (p, b, c), (across_a, to_c ^ 1, to_b)
+                    corners = (p_x, p_y, b_x, b_y, c_x, c_y)
+                    squares, spans = (b_c, p_c, p_b), (top_2, end_2, top_3, end_1)
                 else:
-                    v, v_x, v_y, u_v, v_w = p, p_x, p_y, p_a, p_c
-                    across_w, across_u = to_a ^ 1, to_c
-                    first, last, top2, top3 = low3, end3, end1, end2
-                t = n_triangles
-                if first == last:
-                    certain &= is_certain(v_w, w_u, u_v)
-                    ranks[t] = rank(v_w, w_u, u_v)
-                    _write(triangles, half_edges, owners, t, u, v, w, across_u, across_v, across_w)
-                    n_triangles += 1
-                elif first + 1 == last and ident[first] >= 0:
-                    q = np.int64(ident[first])
-                    q_u = squared_length(u_x - x[first], u_y - y[first])
-                    q_v = squared_length(v_x - x[first], v_y - y[first])
-                    q_w = squared_length(w_x - x[first], w_y - y[first])
-                    certain &= is_certain(q_v, q_u, u_v)
-                    certain &= is_certain(v_w, q_w, q_v) & is_certain(q_w, w_u, q_u)
-                    ranks[t] = rank(q_v, q_u, u_v)
-                    ranks[t + 1] = rank(v_w, q_w, q_v)
-                    ranks[t + 2] = rank(q_w, w_u, q_u)
-                    h = 2 * n_edges  # from q to u; + 2, + 4: to v, w
+                    vertices, across = (a, p, c), (to_c, across_b, to_a ^ 1)
+                    corners = (a_x, a_y, p_x, p_y, c_x, c_y)
+                    squares, spans = (p_c, c_a, p_a), (top_3, end_3, end_1, end_2)
+                k, last = spans[0], spans[1] - 1
+                if k > last:
+                    certain &= is_certain(*squares)
+                    _write(triangles, half_edges, owners, ranks, t, vertices, across, squares)
+                    t += 1
+                elif k == last and ident[k] >= 0:  # one point, inside
+                    certain &= _write_three(
+                        triangles, half_edges, owners, ranks, t, vertices, across, corners,
+                        squares, (np.int64(ident[k]), x[k], y[k]), 2 * n_edges,
+                    )  # fmt: skip
                     n_edges += 3
-                    _write(triangles, half_edges, owners, t, u, v, q, h + 3, h, across_w)
-                    _write(triangles, half_edges, owners, t + 1, q, v, w, across_u, h + 5, h + 2)
-                    _write(triangles, half_edges, owners, t + 2, u, q, w, h + 4, across_v, h + 1)
-                    n_triangles += 3
+                    t += 3
                 else:
-                    _set(
-                        jobs, n_jobs, u, v, w, across_u, across_v, across_w, first, last, top2, top3
-                    )
-                    _shape(shapes, n_jobs, u_x, u_y, v_x, v_y, w_x, w_y, v_w, w_u, u_v)
+                    _push(jobs, n_jobs, vertices, across, spans, corners, squares)
                     n_jobs += 1
-    return n_triangles, certain
+    return t, certain
+
+
+@inlined
+def _partition(points, x, y, ident, repeats, spans, vertices, arms):
+    """Partition the points of a triangle (a, b, c) among the three parts that point p makes of it.
+
+    Parameters
+    ----------
+    spans : (int, int, int, int)
+        Bounds of the list, on which p is the first, and tops of the other stacks.
+    vertices : (int, int, int, int)
+        p, a, b, c.
+    arms : (float, ...)
+        Coordinates of a, b, c relative to p.
+
+    Returns
+    -------
+    end_1, end_2, end_3 : int
+        Ends of the lists of (a, b, p), (p, b, c) and (a, p, c).
+    """
+    first, stop, end_2, end_3 = spans
+    end_1 = first
+    p, a, b, c = vertices
+    p_x, p_y = x[first], y[first]
+    ax, ay, bx, by, cx, cy = arms
+    # No point of the triangle is farther from p.
+    width = max(max(abs(ax), abs(bx)), abs(cx))
+    height = max(max(abs(ay), abs(by)), abs(cy))
+    error = turn_error(width, height)
+    for k in range(first + 1, stop):
+        x_k, y_k, i = x[k], y[k], ident[k]
+        dx, dy = x_k - p_x, y_k - p_y
+        left_of_a = ax * dy - ay * dx
+        left_of_b = bx * dy - by * dx
+        left_of_c = cx * dy - cy * dx
+        in_1 = (left_of_a > 0.0) & (left_of_b < 0.0)
+        in_2 = (left_of_b > 0.0) & (left_of_c < 0.0)
+        in_3 = (left_of_c > 0.0) & (left_of_a < 0.0)
+        if not ((abs(left_of_a) > error) & (abs(left_of_b) > error) & (abs(left_of_c) > error)):
+            q = i if i >= 0 else ~i
+            in_1, in_2, in_3 = _exact_parts(points, p, a, b, c, q)
+            n_parts = in_1 + in_2 + in_3
+            if n_parts == 0:
+                repeats[q] = p
+            elif n_parts == 2:
+                i = ~q
+        # Written to all three lists, of which one grows: no branch to mispredict.
+        x[end_1], y[end_1], ident[end_1] = x_k, y_k, i
+        x[end_2], y[end_2], ident[end_2] = x_k, y_k, i
+        x[end_3], y[end_3], ident[end_3] = x_k, y_k, i
+        end_1 += in_1
+        end_2 += in_2
+        end_3 += in_3
+    return end_1, end_2, end_3
+
+
+@inlined
+def _partition_beside(points, x, y, ident, repeats, spans, p, c):
+    """Do the same where p is on the side ab, and the first part is flat.
+
+    Returns
+    -------
+    end_2, end_3 : int
+    """
+    first, stop, end_2, end_3 = spans
+    for k in range(first + 1, stop):
+        x_k, y_k, i = x[k], y[k], ident[k]
+        q = i if i >= 0 else ~i
+        side = orient(points, p, c, q)
+        if side == 0:
+            if same(points, p, q):
+                repeats[q] = p
+                continue
+            i = ~q
+        if side <= 0:
+            x[end_2], y[end_2], ident[end_2] = x_k, y_k, i
+            end_2 += 1
+        if side >= 0:
+            x[end_3], y[end_3], ident[end_3] = x_k, y_k, i
+            end_3 += 1
+    return end_2, end_3
 
 
 @kernel
-def _set(jobs, k, a, b, c, across_a, across_b, across_c, low, high, top2, top3):
+def _exact_parts(points, p, a, b, c, i):
+    """Tell which of the parts (a, b, p), (p, b, c), (a, p, c) hold point i.
+
+    Two do for a point between p and a vertex, none for a point that repeats p.
+
+    Returns
+    -------
+    in_1, in_2, in_3 : bool
+    """
+    to_a, to_b, to_c = orient(points, p, a, i), orient(points, p, b, i), orient(points, p, c, i)
+    if to_a == 0 and to_b == 0 and to_c == 0:
+        return False, False, False
+    return to_a >= 0 >= to_b, to_b >= 0 >= to_c, to_c >= 0 >= to_a
+
+
+@inlined
+def _squares(corners):
+    """Return the squared lengths of the sides across from three vertices."""
+    a_x, a_y, b_x, b_y, c_x, c_y = corners
+    return (
+        squared_length(b_x - c_x, b_y - c_y),
+        squared_length(c_x - a_x, c_y - a_y),
+        squared_length(a_x - b_x, a_y - b_y),
+    )
+
+
+@inlined
+def _push(jobs, k, vertices, across, spans, corners, squares):
     """Write down a triangle to be split."""
-    jobs[k, 0], jobs[k, 1], jobs[k, 2] = a, b, c
-    jobs[k, 3], jobs[k, 4], jobs[k, 5] = across_a, across_b, across_c
-    jobs[k, 6], jobs[k, 7], jobs[k, 8], jobs[k, 9] = low, high, top2, top3
+    job = jobs[k]
+    job["a"], job["b"], job["c"] = vertices
+    job["across_a"], job["across_b"], job["across_c"] = across
+    job["first"], job["stop"], job["top_2"], job["top_3"] = spans
+    job["a_x"], job["a_y"], job["b_x"], job["b_y"], job["c_x"], job["c_y"] = corners
+    job["b_c"], job["c_a"], job["a_b"] = squares
 
 
-@kernel
-def _shape(shapes, k, a_x, a_y, b_x, b_y, c_x, c_y, b_c, c_a, a_b):
-    """Write down the shape of a triangle to be split."""
-    shapes[k, 0], shapes[k, 1], shapes[k, 2] = a_x, a_y, b_x
-    shapes[k, 3], shapes[k, 4], shapes[k, 5] = b_y, c_x, c_y
-    shapes[k, 6], shapes[k, 7], shapes[k, 8] = b_c, c_a, a_b
+@inlined
+def _turn(job):
+    """Let the vertices of a triangle to be split change places, each for the next."""
+    job["a"], job["b"], job["c"] = job["b"], job["c"], job["a"]
+    job["across_a"], job["across_b"], job["across_c"] = (
+        job["across_b"], job["across_c"], job["across_a"]
+    )  # fmt: skip
+    job["a_x"], job["b_x"], job["c_x"] = job["b_x"], job["c_x"], job["a_x"]
+    job["a_y"], job["b_y"], job["c_y"] = job["b_y"], job["c_y"], job["a_y"]
+    job["b_c"], job["c_a"], job["a_b"] = job["c_a"], job["a_b"], job["b_c"]
 
 
-@kernel
-def _write(triangles, half_edges, owners, t, a, b, c, across_a, across_b, across_c):
+@inlined
+def _write(triangles, half_edges, owners, ranks, t, vertices, across, squares):
     """Write down a triangle that is final."""
-    triangles[t, 0], triangles[t, 1], triangles[t, 2] = a, b, c
-    half_edges[t, 0], half_edges[t, 1], half_edges[t, 2] = across_a, across_b, across_c
-    owners[across_a] = t + 1
-    owners[across_b] = t + 1
-    owners[across_c] = t + 1
+    triangles[t, 0], triangles[t, 1], triangles[t, 2] = vertices
+    half_edges[t, 0], half_edges[t, 1], half_edges[t, 2] = across
+    owners[across[0]] = owners[across[1]] = owners[across[2]] = t + 1
+    ranks[t] = rank(squares[0], squares[1], squares[2])
 
 
-@kernel
-def _link(half_edges, owners):
-    """Replace each half-edge by the triangle on its other side, -1 at the boundary."""
-    for t in range(len(half_edges)):
-        for k in range(3):
-            half_edges[t, k] = owners[half_edges[t, k] ^ 1] - 1
+@inlined
+def _write_three(
+    triangles, half_edges, owners, ranks, t, vertices, across, corners, squares, point, h
+):
+    """Write down the three final triangles that one point inside makes of (u, v, w).
+
+    Parameters
+    ----------
+    point : (int, float, float)
+        Its index and coordinates.
+    h : int
+        The half-edge from the point to u; h + 2 and h + 4 lead to v and w.
+
+    Returns
+    -------
+    bool
+        Whether the ranks are those of the exact lengths.
+    """
+    u, v, w = vertices
+    u_x, u_y, v_x, v_y, w_x, w_y = corners
+    v_w, w_u, u_v = squares
+    q, x, y = point
+    q_u, q_v = squared_length(u_x - x, u_y - y), squared_length(v_x - x, v_y - y)
+    q_w = squared_length(w_x - x, w_y - y)
+    across_u, across_v, across_w = across
+    _write(
+        triangles, half_edges, owners, ranks, t,
+        (u, v, q), (h + 3, h, across_w), (q_v, q_u, u_v),
+    )  # fmt: skip
+    _write(
+        triangles, half_edges, owners, ranks, t + 1,
+        (q, v, w), (across_u, h + 5, h + 2), (v_w, q_w, q_v),
+    )  # fmt: skip
+    _write(
+        triangles, half_edges, owners, ranks, t + 2,
+        (u, q, w), (h + 4, across_v, h + 1), (q_w, w_u, q_u),
+    )  # fmt: skip
+    return is_certain(q_v, q_u, u_v) & is_certain(v_w, q_w, q_v) & is_certain(q_w, w_u, q_u)

@@ -1,20 +1,24 @@
 """The sections of the page, in the order in which a reader asks."""
 
+from lepp import METHODS
 from reports.page.blocks import Section
 from reports.page.evidence import Evidence
 from reports.page.views import distribution_name
 from reports.study_page.sections import (
     agreement,
     data,
-    found,
     methods,
     provenance,
     regions,
     regressions,
     statistics,
+    summary,
     theory,
 )
 from reports.text.numbers import count, large, listed
+from study.analysis.analyse import MISSING
+from study.analysis.group_summaries import OVERVIEW, TRIANGULATIONS_MISSING
+from study.analysis.regressions import SATURATION_MISSING
 
 TITLE = "How far does one refinement spread?"
 COLOPHON = (
@@ -27,7 +31,7 @@ _MOST_ALARMS = 6
 
 def all_sections(evidence: Evidence) -> list[Section]:
     """Make every section that the run gives reason for."""
-    modules = [found, agreement, theory, statistics, regressions]
+    modules = [summary, agreement, theory, statistics, regressions]
     if len(evidence.design.methods) > 1:
         modules.append(methods)
     modules += [regions, data, provenance]
@@ -36,7 +40,7 @@ def all_sections(evidence: Evidence) -> list[Section]:
 
 def description(evidence: Evidence) -> str:
     """Say in a sentence what was studied."""
-    overview = evidence.rows("overview")
+    overview = evidence.rows(OVERVIEW)
     done, asked = int(overview["triangulations"].sum()), evidence.design.n_tasks
     made = (
         count(done, "random triangulation")
@@ -54,30 +58,30 @@ def description(evidence: Evidence) -> str:
 
 def alarms(evidence: Evidence) -> list[str]:
     """Say what is missing, the tasks first; a full run that only lacks a fit has no alarm."""
-    rows = evidence.rows("missing")
-    if rows.empty:
-        return []
-    tasks = rows[rows["what"] == "triangulations"]
-    said = [
+    rows = evidence.rows(MISSING)
+    tasks = rows.select(what=TRIANGULATIONS_MISSING).frame
+    sentences = [
         f"{_whose(evidence, row.distribution, row.method)}{row.why}." for row in tasks.itertuples()
     ]
-    others = rows[rows["what"] != "triangulations"]
     # That means show no saturation is a finding, and what was not asked for is not missed.
-    others = others[~others["what"].str.contains("saturating")]
+    others = rows.frame[~rows["what"].isin({TRIANGULATIONS_MISSING, *SATURATION_MISSING})]
     others = others[others["distribution"].isin(evidence.design.distributions)]
     lacking: dict[str, list[str]] = {}
     for row in others.drop_duplicates(["what", "distribution"]).itertuples():
         lacking.setdefault(row.why, []).append(row.what)
     for why, whats in lacking.items():
-        said.append(f"Not computed: {listed(list(dict.fromkeys(whats)))}, because {why}.")
-    if len(said) > _MOST_ALARMS:
-        rest = len(said) - _MOST_ALARMS + 1
-        said = [*said[: _MOST_ALARMS - 1], f"{rest} more, listed under “How it was made”."]
-    return said
+        sentences.append(f"Not computed: {listed(list(dict.fromkeys(whats)))}, because {why}.")
+    if len(sentences) > _MOST_ALARMS:
+        rest = len(sentences) - _MOST_ALARMS + 1
+        sentences = [
+            *sentences[: _MOST_ALARMS - 1],
+            f"{rest} more, listed under “How it was made”.",
+        ]
+    return sentences
 
 
 def _whose(evidence: Evidence, distribution: str, method: str) -> str:
     names = [distribution_name(distribution)]
     if len(evidence.design.methods) > 1:
-        names.append(method)
+        names.append(METHODS[method].word)
     return f"{', '.join(names)}: "

@@ -1,11 +1,29 @@
 """Does it agree with the paper: the scoreboard, and Table 4 beside the published one."""
 
+from lepp import METHODS
 from reports.page import style
 from reports.page.blocks import FigureBlock, Prose, Section, Subsection, TableBlock, per_view
 from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View
+from reports.study_page.tables import TABLE_4
 from reports.text.numbers import count, listed, show
+from reports.text.words import LEVEL
+from study.analysis.group_summaries import GROUPS
+from study.paper.judging import (
+    AGREES,
+    CLOSE,
+    DIFFERS,
+    IMPLAUSIBLE,
+    MISPRINT,
+    NOT_COMPARABLE,
+    NOT_RUN,
+    PLAUSIBLE,
+    VERDICTS,
+)
+from study.paper.published import MEAN_LEPP, MEAN_TRIANGLES, REFERENCE_METHOD, SD_BETWEEN, SHOWN
+from study.paper.reproduction import OVERALL, REPRODUCTION, SUMMARY, verdict_column
+from study.statistics.thresholds import AGREES_UP_TO, CLOSE_UP_TO, ONE_IN_TWENTY
 
 
 def section(evidence: Evidence) -> Section:
@@ -21,12 +39,12 @@ def section(evidence: Evidence) -> Section:
                 (
                     Prose(per_view(evidence.views, lambda view: _verdicts(evidence, view))),
                     TableBlock(
-                        "reproduction_summary",
+                        SUMMARY,
                         "Verdicts by table of the paper",
                         follows=("method",),
                     ),
                     TableBlock(
-                        "reproduction",
+                        REPRODUCTION,
                         "Every published number beside ours",
                         columns=(
                             "distribution",
@@ -51,7 +69,7 @@ def section(evidence: Evidence) -> Section:
                 (
                     Prose(per_view(evidence.views, lambda view: _overall(evidence, view))),
                     _means(evidence),
-                    TableBlock("table_4", "Table 4. Ours, and the paper's where it prints one"),
+                    TableBlock(TABLE_4, "Table 4. Ours, and the paper's where it prints one"),
                 ),
             ),
         ),
@@ -59,62 +77,63 @@ def section(evidence: Evidence) -> Section:
 
 
 _QUANTITIES = {
-    "mean LEPP": "the mean LEPP size",
-    "standard deviation": "its standard deviation",
-    "mean triangles": "the number of triangles",
+    MEAN_LEPP: "the mean LEPP size",
+    SD_BETWEEN: "its standard deviation",
+    MEAN_TRIANGLES: "the number of triangles",
 }
 
 
 def _verdicts(evidence: Evidence, view: View) -> list[str] | None:
-    rows = evidence.rows("reproduction_summary", method=view.method)
+    rows = evidence.rows(SUMMARY, method=view.method)
     if rows.empty:
         return None
-    total = rows.drop(columns=["method", "published_table"]).sum()
-    judged = int(total["agrees"] + total["close"] + total["differs"])
-    said = [f"The paper prints {total['numbers']} numbers in its seven tables."]
+    total = rows.frame[["numbers", *map(verdict_column, VERDICTS)]].sum()
+    agrees, close, differs = (int(total[verdict_column(v)]) for v in (AGREES, CLOSE, DIFFERS))
+    judged = agrees + close + differs
+    sentences = [f"The paper prints {total['numbers']} numbers in its seven tables."]
     if judged:
-        said.append(
+        sentences.append(
             f"{judged} of them can be held against ours by their standard errors: "
-            f"{total['agrees']} within 2 (agreement), {total['close']} within 3 (close) and "
-            f"{total['differs']} beyond (different). By chance alone, one in twenty would not "
+            f"{agrees} within {AGREES_UP_TO:g} (agreement), {close} within {CLOSE_UP_TO:g} (close) "
+            f"and {differs} beyond (different). By chance alone, {ONE_IN_TWENTY} would not "
             "agree."
         )
-    drawn = int(total["plausible_draw"] + total["implausible_draw"])
+    odd = int(total[verdict_column(IMPLAUSIBLE)])
+    drawn = int(total[verdict_column(PLAUSIBLE)]) + odd
     if drawn:
-        odd = int(total["implausible_draw"])
-        said.append(
+        sentences.append(
             f"{drawn} are random draws that no other run can repeat; "
             + ("all are plausible." if not odd else f"{odd} of them are not plausible.")
         )
-    if total["misprint"]:
-        prints = evidence.rows("reproduction", method=view.method, verdict="misprint")
-        numbers = [f"{row.printed} ({row.quantity})" for row in prints.itertuples()]
-        said.append(f"{count(total['misprint'], 'number')} must be a misprint: {listed(numbers)}.")
+    if misprints := int(total[verdict_column(MISPRINT)]):
+        prints = evidence.rows(REPRODUCTION, method=view.method, verdict=MISPRINT)
+        numbers = [f"{row.printed} ({row.quantity})" for row in prints.frame.itertuples()]
+        sentences.append(f"{count(misprints, 'number')} must be a misprint: {listed(numbers)}.")
     for name, words in (
-        ("not_comparable", "cannot be compared with this design"),
-        ("not_run", "belong to groups that this run does not have"),
+        (NOT_COMPARABLE, "cannot be compared with this design"),
+        (NOT_RUN, "belong to groups that this run does not have"),
     ):
-        if total[name]:
-            said.append(f"{total[name]} {words}.")
-    paragraphs = [" ".join(said)]
-    if view.method != "incremental":
+        if total[verdict_column(name)]:
+            sentences.append(f"{total[verdict_column(name)]} {words}.")
+    paragraphs = [" ".join(sentences)]
+    if view.method != REFERENCE_METHOD:
         paragraphs.append(
             "The paper's triangulations are made by inserting the points as they come, without "
-            "flips (the incremental method). Delaunay triangulations are other meshes: that they "
-            "differ is no failure to reproduce."
+            f"flips (the {METHODS[REFERENCE_METHOD].word} method). {view.method_title} "
+            "triangulations are other meshes: that they differ is no failure to reproduce."
         )
     return paragraphs
 
 
 def _overall(evidence: Evidence, view: View) -> list[str] | None:
-    rows = evidence.rows("reproduction_overall", view)
+    rows = evidence.rows(OVERALL, view)
     if rows.empty:
         return (
             [
                 "The paper shows Table 4 for uniform points only; for the others it says that the "
                 "results are alike."
             ]
-            if view.distribution != "uniform"
+            if view.distribution != SHOWN
             else None
         )
     words = [
@@ -122,14 +141,14 @@ def _overall(evidence: Evidence, view: View) -> list[str] | None:
         f"(χ² = {show(row.chi2, 'fixed1')} on {row.df} degrees of freedom, "
         f"p\u00a0=\u00a0{show(row.log10_p, 'log10p')}; largest difference "
         f"{show(abs(row.furthest), 'fixed2')} standard errors)"
-        for row in rows.itertuples()
+        for row in rows.frame.itertuples()
     ]
     return [f"Over all groups together, {listed(words)}."]
 
 
 def _means(evidence: Evidence) -> FigureBlock:
     def draw(view: View) -> Spec | None:
-        rows = evidence.rows("table_4", view)
+        rows = evidence.rows(TABLE_4, view)
         if rows.empty:
             return None
         parts = [_beside(evidence, view)]
@@ -138,19 +157,20 @@ def _means(evidence: Evidence) -> FigureBlock:
         return style.panels(parts, height=560 if len(parts) > 1 else 400)
 
     def say(view: View) -> str | None:
-        rows = evidence.rows("table_4", view)
+        rows = evidence.rows(TABLE_4, view)
         if rows.empty:
             return None
         z = rows["difference"].dropna()
         if z.empty:
-            first, last = rows.iloc[0], rows.iloc[-1]
+            first, last = rows.first, rows.last
             return (
                 f"The mean goes from {show(first['mean_lepp'], 'fixed4')} at {first['n_points']:,} "
                 f"points to {show(last['mean_lepp'], 'fixed4')} at {last['n_points']:,}."
             )
         return (
-            f"{int((z.abs() <= 2).sum())} of {count(len(z), 'group mean')} lie within 2 standard "
-            f"errors of the published one and {int((z.abs() <= 3).sum())} within 3; the largest "
+            f"{int((z.abs() <= AGREES_UP_TO).sum())} of {count(len(z), 'group mean')} lie within "
+            f"{AGREES_UP_TO:g} standard errors of the published one and "
+            f"{int((z.abs() <= CLOSE_UP_TO).sum())} within {CLOSE_UP_TO:g}; the largest "
             f"difference is {show(z.abs().max(), 'fixed2')}."
         )
 
@@ -160,19 +180,23 @@ def _means(evidence: Evidence) -> FigureBlock:
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
         reading="Where the paper prints a mean, the lower panel has the difference; dotted lines "
-        "are at 2 standard errors.",
-        data=(TableBlock("table_4", "Data: means by number of points"),),
+        f"are at {AGREES_UP_TO:g} standard errors.",
+        data=(TableBlock(TABLE_4, "Data: means by number of points"),),
     )
 
 
 def _beside(evidence: Evidence, view: View) -> style.Panel:
-    groups, rows = evidence.rows("groups", view), evidence.rows("table_4", view)
-    interval = "95\u00a0% interval"
+    groups, rows = evidence.rows(GROUPS, view), evidence.rows(TABLE_4, view)
     traces = [
-        *style.band(groups["n_points"], groups["mean_low"], groups["mean_high"], interval),
+        *style.band(
+            groups.column("n_points"),
+            groups.column("mean_low"),
+            groups.column("mean_high"),
+            f"{LEVEL} interval",
+        ),
         style.scatter(
-            x=rows["n_points"],
-            y=rows["mean_lepp"],
+            x=rows.column("n_points"),
+            y=rows.column("mean_lepp"),
             mode="lines+markers",
             name="this run",
             line=style.line(0),
@@ -183,8 +207,8 @@ def _beside(evidence: Evidence, view: View) -> style.Panel:
     if rows["published_mean"].notna().any():
         traces.append(
             style.scatter(
-                x=rows["n_points"],
-                y=rows["published_mean"],
+                x=rows.column("n_points"),
+                y=rows.column("published_mean"),
                 mode="markers",
                 name="the paper",
                 marker=style.marker(1, 8),
@@ -197,11 +221,11 @@ def _beside(evidence: Evidence, view: View) -> style.Panel:
 
 
 def _differences(evidence: Evidence, view: View) -> style.Panel:
-    rows = evidence.rows("table_4", view)
-    furthest = max(3.0, 1.15 * float(rows["difference"].abs().max()))
+    rows = evidence.rows(TABLE_4, view)
+    furthest = max(CLOSE_UP_TO, 1.15 * float(rows["difference"].abs().max()))
     bars = style.bars(
-        x=rows["n_points"],
-        y=rows["difference"],
+        x=rows.column("n_points"),
+        y=rows.column("difference"),
         name="difference",
         showlegend=False,
         marker={"color": style.SERIES[0]},
@@ -211,5 +235,5 @@ def _differences(evidence: Evidence, view: View) -> style.Panel:
         [bars],
         style.axis("Number of points", matches="x"),
         style.axis("Ours − paper’s<br>(standard errors)", range=[-furthest, furthest]),
-        levels=(style.Level(-2), style.Level(2)),
+        levels=(style.Level(-AGREES_UP_TO), style.Level(AGREES_UP_TO)),
     )

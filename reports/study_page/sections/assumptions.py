@@ -8,6 +8,10 @@ from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View
 from reports.text.numbers import count, none_or, show
+from study.analysis.group_assumptions import LEVENE, QQ, SHAPIRO
+from study.analysis.group_summaries import GROUPS
+from study.statistics.thresholds import ONE_IN_TWENTY, SIGNIFICANCE
+from study.statistics.verdicts import REJECTED
 
 
 def assumptions(evidence: Evidence) -> Subsection:
@@ -18,7 +22,7 @@ def assumptions(evidence: Evidence) -> Subsection:
         (
             Prose(per_view(evidence.views, lambda view: _assumptions(evidence, view))),
             TableBlock(
-                "levene",
+                LEVENE,
                 "Table 2. Levene's test of equal variances",
                 columns=(
                     "center",
@@ -30,48 +34,48 @@ def assumptions(evidence: Evidence) -> Subsection:
                 ),
             ),
             _qq(evidence),
-            TableBlock("shapiro", "Table 3. Shapiro-Wilk test of each group", folded=True),
+            TableBlock(SHAPIRO, "Table 3. Shapiro-Wilk test of each group", folded=True),
         ),
     )
 
 
 def _assumptions(evidence: Evidence, view: View) -> list[str] | None:
-    said = []
-    levene = evidence.rows("levene", view)
+    sentences = []
+    levene = evidence.rows(LEVENE, view)
     if not levene.empty:
-        unequal = levene["equal_variances"] == "rejected"
-        first = levene.iloc[0]
+        unequal = levene["equal_variances"] == REJECTED
+        first = levene.first
         numbers = (
             f"Levene's F({first['df_group']}, {first['df_residual']}) is "
             f"{show(first['f'], 'fixed2')}, p\u00a0=\u00a0{show(first['log10_p'], 'log10p')}"
         )
         if unequal.all():
-            said.append(
+            sentences.append(
                 f"The groups' variances are not equal: {numbers}. The spread between "
                 f"triangulations {_trend(evidence, view)}, and the classical analysis of variance "
                 "supposes that it does not change; the tests below that do without are the ones to "
                 "read."
             )
         elif unequal.any():
-            said.append(
+            sentences.append(
                 f"Whether the groups' variances are equal depends on the centre: {numbers}."
             )
         else:
-            said.append(f"Equal variances of the groups are not rejected: {numbers}.")
-    shapiro = evidence.rows("shapiro", view)
+            sentences.append(f"Equal variances of the groups are not rejected: {numbers}.")
+    shapiro = evidence.rows(SHAPIRO, view)
     if not shapiro.empty:
-        below = int((shapiro["p"] < 0.05).sum())
-        rejected = int((shapiro["normal"] == "rejected").sum())
-        said.append(
-            f"Shapiro-Wilk gives p below 0.05 in {none_or(below)} of "
-            f"{count(len(shapiro), 'group')}; one in twenty would by chance. After Holm's "
+        below = int((shapiro["p"] < SIGNIFICANCE).sum())
+        rejected = int((shapiro["normal"] == REJECTED).sum())
+        sentences.append(
+            f"Shapiro-Wilk gives p below {SIGNIFICANCE} in {none_or(below)} of "
+            f"{count(len(shapiro), 'group')}; {ONE_IN_TWENTY} would by chance. After Holm's "
             f"correction {none_or(rejected)} {'is' if rejected == 1 else 'are'} rejected as normal."
         )
-    return said or None
+    return sentences or None
 
 
 def _trend(evidence: Evidence, view: View) -> str:
-    spread = evidence.rows("groups", view)["sd_between"].dropna()
+    spread = evidence.rows(GROUPS, view)["sd_between"].dropna()
     first, last = show(spread.iloc[0], "fixed4"), show(spread.iloc[-1], "fixed4")
     direction = "falls" if spread.iloc[-1] < spread.iloc[0] else "rises"
     return f"{direction} with their size, from {first} to {last}"
@@ -79,7 +83,7 @@ def _trend(evidence: Evidence, view: View) -> str:
 
 def _qq(evidence: Evidence) -> FigureBlock:
     def draw(view: View) -> Spec | None:
-        rows = evidence.rows("qq", view)
+        rows = evidence.rows(QQ, view)
         if rows.empty:
             return None
         reach = float(np.abs(rows["normal_quantile"]).max()) * 1.05
@@ -93,8 +97,8 @@ def _qq(evidence: Evidence) -> FigureBlock:
                 hoverinfo="skip",
             ),
             style.scatter(
-                x=rows["normal_quantile"],
-                y=rows["standardised_mean"],
+                x=rows.column("normal_quantile"),
+                y=rows.column("standardised_mean"),
                 mode="markers",
                 name="triangulations",
                 marker=style.marker(0, 5, opacity=0.6),
@@ -106,7 +110,7 @@ def _qq(evidence: Evidence) -> FigureBlock:
         )
 
     def say(view: View) -> str | None:
-        rows = evidence.rows("qq", view)
+        rows = evidence.rows(QQ, view)
         if len(rows) < 3:
             return None
         straight = float(np.corrcoef(rows["normal_quantile"], rows["standardised_mean"])[0, 1])
@@ -121,5 +125,5 @@ def _qq(evidence: Evidence) -> FigureBlock:
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
         reading="Normal values would lie on the dashed line.",
-        data=(TableBlock("qq", "Data of the QQ plot"),),
+        data=(TableBlock(QQ, "Data of the QQ plot"),),
     )

@@ -5,7 +5,9 @@ from reports.page.blocks import ALWAYS, FigureBlock, Section, Subsection, TableB
 from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View, distribution_name
+from reports.study_page.tables import SAMPLED_POINTS, TRIANGULATIONS
 from reports.text.numbers import count, listed, show
+from study.analysis.group_summaries import GROUPS
 
 
 def section(evidence: Evidence) -> Section:
@@ -29,10 +31,10 @@ def _figure_3(evidence: Evidence) -> FigureBlock:
     names = evidence.design.distributions
     parts = []
     for k, name in enumerate(names):
-        points = evidence.rows("sampled_points", distribution=name)
+        points = evidence.rows(SAMPLED_POINTS, distribution=name)
         dots = style.scatter(
-            x=points["x"],
-            y=points["y"],
+            x=points.column("x"),
+            y=points.column("y"),
             mode="markers",
             name="points",
             marker=style.marker(0, 4, opacity=0.65),
@@ -50,7 +52,7 @@ def _figure_3(evidence: Evidence) -> FigureBlock:
         )
     many = len(names) > 1
     figure = style.panels(parts, columns=2 if many else 1, height=700 if many else 420)
-    rows = evidence.rows("sampled_points")
+    rows = evidence.rows(SAMPLED_POINTS)
     each = len(rows) // len(names)
     words = listed([_shape(name, evidence.design.correlation) for name in names])
     return FigureBlock(
@@ -59,7 +61,7 @@ def _figure_3(evidence: Evidence) -> FigureBlock:
         specs={ALWAYS: figure},
         alternatives={ALWAYS: f"{count(each, 'point')} of each distribution: {words}."},
         reading="The first points of the first point set of each distribution, as drawn.",
-        data=(TableBlock("sampled_points", "Data of Figure 3: the points drawn"),),
+        data=(TableBlock(SAMPLED_POINTS, "Data of Figure 3: the points drawn"),),
     )
 
 
@@ -76,22 +78,22 @@ def _shape(name: str, correlation: float) -> str:
 
 def _figure_4(evidence: Evidence) -> FigureBlock:
     def draw(view: View) -> Spec | None:
-        rows = evidence.rows("triangulations", view)
+        rows = evidence.rows(TRIANGULATIONS, view)
         if rows.empty:
             return None
-        groups = evidence.rows("groups", view)
+        groups = evidence.rows(GROUPS, view)
         return style.plot(
             style.scatter(
-                x=rows["n_points"],
-                y=rows["mean_lepp"],
+                x=rows.column("n_points"),
+                y=rows.column("mean_lepp"),
                 mode="markers",
                 name="one triangulation",
                 marker=style.marker(0, 5, opacity=0.45),
                 hovertemplate="%{x:,} points: %{y:.4f}<extra></extra>",
             ),
             style.scatter(
-                x=groups["n_points"],
-                y=groups["mean_lepp"],
+                x=groups.column("n_points"),
+                y=groups.column("mean_lepp"),
                 mode="lines+markers",
                 name="mean of the group",
                 line=style.line(1),
@@ -108,19 +110,19 @@ def _figure_4(evidence: Evidence) -> FigureBlock:
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, lambda view: _spread(evidence, view)),
         reading="A dot is one triangulation; it is drawn at its number of points.",
-        data=(TableBlock("triangulations", "Data of Figures 4 and 5: every triangulation"),),
+        data=(TableBlock(TRIANGULATIONS, "Data of Figures 4 and 5: every triangulation"),),
     )
 
 
 def _figure_5(evidence: Evidence) -> FigureBlock:
     def draw(view: View) -> Spec | None:
-        rows = evidence.rows("triangulations", view)
+        rows = evidence.rows(TRIANGULATIONS, view)
         if rows.empty:
             return None
         return style.plot(
             style.box(
-                x=rows["n_points"],
-                y=rows["mean_lepp"],
+                x=rows.column("n_points"),
+                y=rows.column("mean_lepp"),
                 boxpoints="outliers",
                 line={"color": style.SERIES[0], "width": 1.5},
                 fillcolor=style.BAND,
@@ -139,7 +141,7 @@ def _figure_5(evidence: Evidence) -> FigureBlock:
         reading="Boxes span the quartiles, whiskers reach to 1.5 times their distance.",
         data=(
             TableBlock(
-                "groups",
+                GROUPS,
                 "Data of Figure 5: the groups",
                 columns=("n_points", "triangulations", "lowest", "q1", "median", "q3", "highest"),
             ),
@@ -148,7 +150,7 @@ def _figure_5(evidence: Evidence) -> FigureBlock:
 
 
 def _spread(evidence: Evidence, view: View) -> str | None:
-    groups = evidence.rows("groups", view)
+    groups = evidence.rows(GROUPS, view).frame
     groups = groups[groups["sd_between"].notna()]
     if len(groups) < 2:
         return None

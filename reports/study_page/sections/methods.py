@@ -2,64 +2,73 @@
 
 from collections.abc import Callable
 
+from lepp import METHODS
+from lepp.theory import LEAST_P
 from reports.page import style
 from reports.page.blocks import FigureBlock, Prose, Section, Subsection, TableBlock
 from reports.page.evidence import Evidence
 from reports.page.style import Spec
-from reports.page.views import View, distribution_word, method_word
-from reports.text.numbers import listed, show, significant
+from reports.page.views import View, distribution_word
+from reports.study_page.sections.theory import LONG
+from reports.study_page.tables import TABLE_4, statements_compared_by
+from reports.text.numbers import listed, show
+from reports.text.words import every
+from study.analysis.group_summaries import GROUPS
+from study.analysis.method_comparison import GROWTH, MEAN_LEPP, METHODS_COMPARED, SHARE_P
+from study.analysis.path_lengths import LAW, TERMINATION
+from study.analysis.table import DISTRIBUTION, Declaration, Rows
+from study.analysis.theorems import LEAST_P_TEXT, THEOREM_2
+from study.paper.published import REFERENCE_METHOD
 
 
 def section(evidence: Evidence) -> Section:
     """Means, rates, sizes, growth, statements; every figure has all methods."""
-    every = _by_distribution
     return Section(
         "methods",
         "The triangulations compared",
         "Does the triangulation matter?",
         (
-            Subsection(
-                "same-points",
-                "On the same points",
-                (
-                    Prose(every(evidence, _same_points)),
-                    _growth(evidence),
-                    TableBlock(
-                        "methods",
-                        "Paired differences at the largest number of points",
-                        columns=(
-                            "quantity",
-                            "pairs",
-                            "mean_1",
-                            "mean_2",
-                            "difference",
-                            "low",
-                            "high",
-                            "log10_p",
-                        ),
-                        follows=("distribution",),
-                        where={"n_points": max(evidence.design.sizes)},
-                    ),
-                    TableBlock(
-                        "growth",
-                        "Growth with each doubling of the points",
-                        folded=True,
-                        follows=("distribution",),
-                    ),
-                ),
-            ),
+            _compared(evidence),
             Subsection("paths-compared", "The paths", (_rates(evidence), _sizes(evidence))),
             Subsection(
                 "statements-compared",
                 "What of the paper holds for which",
                 (
                     TableBlock(
-                        "statements_compared",
+                        statements_compared_by(evidence.design.methods),
                         "The paper's statements by triangulation",
-                        follows=("distribution",),
                     ),
                 ),
             ),
+        ),
+    )
+
+
+def _compared(evidence: Evidence) -> Subsection:
+    others = ("method_2",) if len(evidence.design.methods) > 2 else ()
+    return Subsection(
+        "same-points",
+        "On the same points",
+        (
+            Prose(_by_distribution(evidence, _same_points)),
+            _growth(evidence),
+            TableBlock(
+                METHODS_COMPARED,
+                "Paired differences at the largest number of points",
+                columns=(
+                    "quantity",
+                    *others,
+                    "pairs",
+                    "mean_1",
+                    "mean_2",
+                    "difference",
+                    "low",
+                    "high",
+                    "log10_p",
+                ),
+                where={"n_points": max(evidence.design.sizes)},
+            ),
+            TableBlock(GROWTH, "Growth with each doubling of the points", folded=True),
         ),
     )
 
@@ -79,66 +88,98 @@ def _views(evidence: Evidence, distribution: str) -> list[View]:
 
 
 def _same_points(evidence: Evidence, distribution: str) -> list[str] | None:
-    rows = evidence.rows("methods", distribution=distribution)
+    rows = evidence.rows(METHODS_COMPARED, distribution=distribution)
     if rows.empty:
         return None
-    last = rows[rows["n_points"] == rows["n_points"].max()].set_index("quantity")
-    mean, p = last.loc["mean LEPP"], last.loc["share p of type C"]
-    words = [
-        f"{show(mean[f'mean_{k}'], 'fixed4')} ({method_word(mean[f'method_{k}'])})" for k in (1, 2)
+    largest = rows.select(n_points=rows["n_points"].max())
+    means = _by_method(largest.select(quantity=MEAN_LEPP), "mean")
+    shares = _by_method(largest.select(quantity=SHARE_P), "mean")
+    sentences = [
+        f"{_each_method(evidence)} On the same {largest.first['n_points']:,} "
+        f"{distribution_word(distribution)} points the mean LEPP sizes are "
+        f"{listed(_beside(means, 'fixed4'))}, and the shares p of type C neighbours "
+        f"{listed(_beside(shares, 'fixed4'))}. {premise(shares)}"
     ]
-    shares = [f"{show(p[f'mean_{k}'], 'fixed4')} ({method_word(p[f'method_{k}'])})" for k in (1, 2)]
-    below = [method_word(p[f"method_{k}"]) for k in (1, 2) if p[f"mean_{k}"] < 1 / 3]
-    premise = (
-        f" That of the {listed(below)} triangulations is below the 1/3 that Theorem 2 supposes."
-        if below
-        else " Both are above the 1/3 that Theorem 2 supposes."
-    )
-    said = [
-        f"The paper inserts the points as they come and never flips an edge (incremental); most "
-        "programs make Delaunay triangulations, whose triangles are as far from thin as the points "
-        "allow. "
-        f"On the same {mean['n_points']:,} {distribution_word(distribution)} points the "
-        f"mean LEPP sizes are {listed(words)}, and the shares p of type C neighbours "
-        f"{listed(shares)}."
-        f"{premise}"
-    ]
-    growth = evidence.one("growth", distribution=distribution)
-    if growth is not None:
-        slopes = [
-            f"{significant(growth[f'slope_{k}'], 2)} ({method_word(growth[f'method_{k}'])})"
-            for k in (1, 2)
-        ]
-        same = growth["low"] <= 0 <= growth["high"]
-        said.append(
-            f"With each doubling of the points the mean changes by {listed(slopes)}; the growth "
-            + ("is not shown to differ." if same else "differs.")
+    growth = evidence.rows(GROWTH, distribution=distribution)
+    if not growth.empty:
+        slopes = _beside(_by_method(growth, "slope"), "g2")
+        sentences.append(
+            f"With each doubling of the points the mean changes by {listed(slopes)}; "
+            f"{_differing_growth(growth)}."
         )
-    return said
+    return sentences
+
+
+def _each_method(evidence: Evidence) -> str:
+    """Say what each method does, the paper's first."""
+    of_paper = [name for name in evidence.design.methods if name == REFERENCE_METHOD]
+    others = [METHODS[name] for name in evidence.design.methods if name != REFERENCE_METHOD]
+    words = [
+        f"the {METHODS[name].word} method, the paper's, {METHODS[name].description}"
+        for name in of_paper
+    ]
+    words += [f"the {method.word} method {method.description}" for method in others]
+    text = "; ".join(words)
+    return f"{text[0].upper()}{text[1:]}."
+
+
+def _by_method(rows: Rows, quantity: str) -> dict[str, float]:
+    """Give the value of the reference, and of each method that is compared with it."""
+    values = {rows.first["method_1"]: float(rows.first[f"{quantity}_1"])}
+    for name, value in zip(rows["method_2"], rows[f"{quantity}_2"], strict=True):
+        values[name] = float(value)
+    return values
+
+
+def _beside(values: dict[str, float], shown_as: str) -> list[str]:
+    return [f"{show(value, shown_as)} ({METHODS[name].word})" for name, value in values.items()]
+
+
+def premise(shares: dict[str, float]) -> str:
+    """Say which methods keep the premise of Theorem 2, from their shares p by name."""
+    below = [METHODS[name].word for name, p in shares.items() if p < LEAST_P]
+    if not below:
+        return f"{every(len(shares))} are above the {LEAST_P_TEXT} that Theorem 2 supposes."
+    verb = "That of the" if len(below) == 1 else "Those of the"
+    return (
+        f"{verb} {listed(below)} triangulations {'is' if len(below) == 1 else 'are'} below the "
+        f"{LEAST_P_TEXT} that Theorem 2 supposes."
+    )
+
+
+def _differing_growth(growth: Rows) -> str:
+    same = (growth["low"] <= 0) & (growth["high"] >= 0)
+    if len(growth) == 1:
+        return f"the growth {'is not shown to differ' if same.iloc[0] else 'differs'}"
+    differing = [METHODS[name].word for name in growth["method_2"][~same]]
+    reference = METHODS[growth.first["method_1"]].word
+    if not differing:
+        return f"no growth is shown to differ from the {reference} one"
+    return f"the {listed(differing)} growth differs from the {reference} one"
 
 
 def _growth(evidence: Evidence) -> FigureBlock:
     def draw(evidence: Evidence, distribution: str) -> Spec | None:
-        if any(evidence.rows("groups", view).empty for view in _views(evidence, distribution)):
+        if any(evidence.rows(GROUPS, view).empty for view in _views(evidence, distribution)):
             return None
-        means = _lines(evidence, distribution, "groups", "mean_lepp", "Mean LEPP size")
+        means = _lines(evidence, distribution, GROUPS, "mean_lepp", "Mean LEPP size")
         shares = _lines(
             evidence,
             distribution,
-            "theorem_2",
+            THEOREM_2,
             "p_type_c",
             "Share p of type C",
-            levels=(style.Level(1 / 3, "p = 1/3"),),
+            levels=(style.Level(LEAST_P, f"p = {LEAST_P_TEXT}"),),
         )
         return style.panels([means, shares], height=580)
 
     def say(evidence: Evidence, distribution: str) -> str | None:
         words = []
         for view in _views(evidence, distribution):
-            groups = evidence.rows("table_4", view)
+            groups = evidence.rows(TABLE_4, view)
             if groups.empty:
                 return None
-            first, last = groups.iloc[0], groups.iloc[-1]
+            first, last = groups.first, groups.last
             words.append(
                 f"{view.method_word} means go from {show(first['mean_lepp'], 'fixed4')} at "
                 f"{first['n_points']:,} to {show(last['mean_lepp'], 'fixed4')} at "
@@ -151,12 +192,12 @@ def _growth(evidence: Evidence) -> FigureBlock:
         title="Mean LEPP size and p by triangulation",
         specs=_by_distribution(evidence, draw),
         alternatives=_by_distribution(evidence, say),
-        reading="Both methods triangulate the same points.",
+        reading=f"{every(len(evidence.design.methods))} methods triangulate the same points.",
         data=(
             TableBlock(
-                "methods",
+                METHODS_COMPARED,
                 "Data: paired differences at every number of points",
-                follows=("distribution",),
+                follows=(DISTRIBUTION.name,),
             ),
         ),
     )
@@ -165,7 +206,7 @@ def _growth(evidence: Evidence) -> FigureBlock:
 def _lines(
     evidence: Evidence,
     distribution: str,
-    table: str,
+    table: Declaration,
     column: str,
     title: str,
     levels: tuple[style.Level, ...] = (),
@@ -175,15 +216,15 @@ def _lines(
         rows = evidence.rows(table, view)
         traces.append(
             style.scatter(
-                x=rows["n_points"],
-                y=rows[column],
+                x=rows.column("n_points"),
+                y=rows.column(column),
                 mode="lines+markers",
-                name=view.method_name,
+                name=view.method_title,
                 legendgroup=view.method,
-                showlegend=table == "groups",
+                showlegend=table == GROUPS,
                 line=style.line(series),
                 marker=style.marker(series),
-                hovertemplate="%{x:,} points: %{y:.4f}<extra>" + view.method_name + "</extra>",
+                hovertemplate="%{x:,} points: %{y:.4f}<extra>" + view.method_title + "</extra>",
             )
         )
     return style.Panel(traces, style.axis("Number of points"), style.axis(title), levels=levels)
@@ -193,19 +234,19 @@ def _rates(evidence: Evidence) -> FigureBlock:
     def draw(evidence: Evidence, distribution: str) -> Spec | None:
         traces = []
         for series, view in enumerate(_views(evidence, distribution)):
-            rows = evidence.rows("termination", view)
+            rows = evidence.rows(TERMINATION, view)
             if rows.empty:
                 return None
-            rows = rows[(rows["lepp_size"] >= 2) & rows["low"].notna()]
+            steps = rows.frame[(rows["lepp_size"] >= 2) & rows["low"].notna()]
             traces.append(
                 style.scatter(
-                    x=rows["lepp_size"],
-                    y=rows["rate"],
+                    x=steps["lepp_size"],
+                    y=steps["rate"],
                     mode="lines+markers",
-                    name=view.method_name,
+                    name=view.method_title,
                     line=style.line(series),
                     marker=style.marker(series),
-                    hovertemplate="size %{x}: %{y:.4f}<extra>" + view.method_name + "</extra>",
+                    hovertemplate="size %{x}: %{y:.4f}<extra>" + view.method_title + "</extra>",
                 )
             )
         return style.plot(
@@ -217,8 +258,8 @@ def _rates(evidence: Evidence) -> FigureBlock:
     def say(evidence: Evidence, distribution: str) -> str | None:
         words = []
         for view in _views(evidence, distribution):
-            rows = evidence.rows("termination", view)
-            steps = rows[rows["lepp_size"].isin([2, 5])] if not rows.empty else rows
+            rows = evidence.rows(TERMINATION, view)
+            steps = rows.frame[rows["lepp_size"].isin([2, 5])]
             if len(steps) < 2:
                 return None
             words.append(
@@ -236,9 +277,9 @@ def _rates(evidence: Evidence) -> FigureBlock:
         reading="Theorem 1 takes each line to be level.",
         data=(
             TableBlock(
-                "termination",
+                TERMINATION,
                 "Data: termination rates of all triangulations",
-                follows=("distribution",),
+                follows=(DISTRIBUTION.name,),
             ),
         ),
     )
@@ -248,18 +289,18 @@ def _sizes(evidence: Evidence) -> FigureBlock:
     def draw(evidence: Evidence, distribution: str) -> Spec | None:
         traces = []
         for series, view in enumerate(_views(evidence, distribution)):
-            rows = evidence.rows("law", view)
+            rows = evidence.rows(LAW, view)
             if rows.empty:
                 return None
             traces.append(
                 style.scatter(
-                    x=rows["lepp_size"],
+                    x=rows.column("lepp_size"),
                     y=rows["share"].where(rows["share"] > 0),
                     mode="lines+markers",
-                    name=view.method_name,
+                    name=view.method_title,
                     line=style.line(series),
                     marker=style.marker(series),
-                    hovertemplate="size %{x}: %{y:.3%}<extra>" + view.method_name + "</extra>",
+                    hovertemplate="size %{x}: %{y:.3%}<extra>" + view.method_title + "</extra>",
                 )
             )
         return style.plot(
@@ -271,13 +312,13 @@ def _sizes(evidence: Evidence) -> FigureBlock:
     def say(evidence: Evidence, distribution: str) -> str | None:
         words = []
         for view in _views(evidence, distribution):
-            rows = evidence.rows("law", view)
+            rows = evidence.rows(LAW, view)
             if rows.empty:
                 return None
-            long = rows.loc[rows["lepp_size"] >= 8, "share"].sum()
+            long = rows["share"][rows["lepp_size"] >= LONG].sum()
             words.append(
-                f"{show(long, 'percent2')} of the {view.method_word} triangles have a LEPP of 8 or "
-                f"more, and the longest is {rows['lepp_size'].max()}"
+                f"{show(long, 'percent2')} of the {view.method_word} triangles have a LEPP of "
+                f"{LONG} or more, and the longest is {rows['lepp_size'].max()}"
             )
         return f"{'; '.join(words)}."
 
@@ -288,6 +329,6 @@ def _sizes(evidence: Evidence) -> FigureBlock:
         alternatives=_by_distribution(evidence, say),
         reading="The vertical scale is logarithmic.",
         data=(
-            TableBlock("law", "Data: LEPP sizes of all triangulations", follows=("distribution",)),
+            TableBlock(LAW, "Data: LEPP sizes of all triangulations", follows=(DISTRIBUTION.name,)),
         ),
     )

@@ -2,10 +2,14 @@
 
 from itertools import pairwise
 
+from lepp import METHODS
 from reports.page.blocks import Facts, Section, Subsection, TableBlock, common
 from reports.page.evidence import Evidence
-from reports.page.views import distribution_word, method_word
+from reports.page.views import distribution_word
+from reports.study_page.tables import FAILURES
 from reports.text.numbers import count, listed
+from study.analysis.analyse import MISSING
+from study.analysis.group_summaries import OVERVIEW
 
 
 def section(evidence: Evidence) -> Section:
@@ -21,7 +25,7 @@ def section(evidence: Evidence) -> Section:
 def _design(evidence: Evidence) -> Facts:
     design = evidence.design
     facts = [
-        ("Triangulation", listed([method_word(name) for name in design.methods])),
+        ("Triangulation", listed([METHODS[name].word for name in design.methods])),
         ("Distributions", listed([distribution_word(d) for d in design.distributions])),
         ("Numbers of points", _sizes(design.sizes)),
         ("Repetitions", f"{design.repetitions:,} point sets for each distribution and size"),
@@ -48,10 +52,10 @@ def _sizes(sizes: tuple[int, ...]) -> str:
 
 
 def _completeness(evidence: Evidence) -> tuple:
-    overview = evidence.rows("overview")
+    overview = evidence.rows(OVERVIEW)
     asked, done, failed = (int(overview[c].sum()) for c in ("asked", "triangulations", "failed"))
     repeated = int(overview["repeated_points"].sum())
-    said = (
+    sentence = (
         f"All {count(asked, 'triangulation')} were made; none failed."
         if done == asked
         else f"Of {count(asked, 'triangulation')}, {done:,} were made, {failed:,} failed and "
@@ -64,13 +68,13 @@ def _completeness(evidence: Evidence) -> tuple:
         else ""
     )
     blocks: list = [
-        common(said + left_out),
-        TableBlock("overview", "The study at a glance", follows=()),
+        common(sentence + left_out),
+        TableBlock(OVERVIEW, "The study at a glance", follows=()),
     ]
-    if evidence.has("missing"):
-        blocks.append(TableBlock("missing", "What could not be computed, and why", follows=()))
-    if evidence.has("failures"):
-        blocks.append(TableBlock("failures", "Tasks that failed", follows=()))
+    if not evidence.rows(MISSING).empty:
+        blocks.append(TableBlock(MISSING, "What could not be computed, and why", follows=()))
+    if not evidence.rows(FAILURES).empty:
+        blocks.append(TableBlock(FAILURES, "Tasks that failed", follows=()))
     return tuple(blocks)
 
 

@@ -6,6 +6,10 @@ from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View
 from reports.text.numbers import count, listed, none_or, show
+from reports.text.words import LEVEL
+from study.analysis.point_randomness import ALL, BINS, COORDINATES, RANDOMNESS, UNIFORMITY
+from study.statistics.thresholds import SIGNIFICANCE
+from study.statistics.verdicts import NOT_REJECTED
 
 
 def randomness(evidence: Evidence) -> Subsection:
@@ -17,7 +21,7 @@ def randomness(evidence: Evidence) -> Subsection:
             _randomness(evidence),
             _uniformity(evidence),
             TableBlock(
-                "randomness",
+                RANDOMNESS,
                 "Table 1. Tests of randomness and of fit",
                 columns=(
                     "distribution",
@@ -38,21 +42,21 @@ def randomness(evidence: Evidence) -> Subsection:
 
 
 def _randomness(evidence: Evidence) -> Prose:
-    row = evidence.one("randomness", distribution="all")
+    row = evidence.one(RANDOMNESS, distribution=ALL)
     if row is None:
         return Prose({})
     chance = (
         "which is what chance alone leads one to expect"
-        if row["verdict"] == "not rejected"
+        if row["verdict"] == NOT_REJECTED
         else "which chance alone does not explain"
     )
     return Prose(
         {
             ALWAYS: [
                 f"Of {count(row['tests'], 'test')} of all point sets, "
-                f"{count(row['below'], 'p-value falls', 'p-values fall')} below 0.05: "
+                f"{count(row['below'], 'p-value falls', 'p-values fall')} below {SIGNIFICANCE}: "
                 f"{show(row['share_below'], 'percent2')} "
-                f"(95\u00a0% interval {show(row['share_low'], 'percent2')} to "
+                f"({LEVEL} interval {show(row['share_low'], 'percent2')} to "
                 f"{show(row['share_high'], 'percent2')}), {chance}. "
                 f"About {show(row['expected_below'], 'int')} had to, even with perfect points. "
                 f"After Holm's correction {none_or(row['rejected_holm'])} "
@@ -64,7 +68,7 @@ def _randomness(evidence: Evidence) -> Prose:
 
 def _uniformity(evidence: Evidence) -> FigureBlock:
     def draw(view: View) -> Spec | None:
-        rows = evidence.rows("uniformity", view)
+        rows = evidence.rows(UNIFORMITY, view)
         if rows.empty:
             return None
         tests = list(dict.fromkeys(rows["test"]))
@@ -75,10 +79,10 @@ def _uniformity(evidence: Evidence) -> FigureBlock:
         )
 
     def say(view: View) -> str | None:
-        rows = evidence.rows("randomness", view)
+        rows = evidence.rows(RANDOMNESS, view)
         if rows.empty:
             return None
-        odd = rows[rows["uniform_p"] < 0.05]
+        odd = rows.frame[rows["uniform_p"] < SIGNIFICANCE]
         names = [f"{row.test} of {row.coordinate}" for row in odd.itertuples()]
         found = (
             f"all {len(rows)} families of p-values are as even as chance allows "
@@ -95,18 +99,18 @@ def _uniformity(evidence: Evidence) -> FigureBlock:
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
         reading="If the points are random, the bars are level with the dashed line, give or take.",
-        data=(TableBlock("uniformity", "Data: p-values counted in steps of 0.05"),),
+        data=(TableBlock(UNIFORMITY, f"Data: p-values counted in steps of {1 / BINS:g}"),),
     )
 
 
 def _evenness(evidence: Evidence, view: View, test: str, *, first: bool) -> style.Panel:
     traces = []
-    for series, coordinate in enumerate(("x", "y")):
-        rows = evidence.rows("uniformity", view, test=test, coordinate=coordinate)
+    for series, coordinate in enumerate(COORDINATES):
+        rows = evidence.rows(UNIFORMITY, view, test=test, coordinate=coordinate)
         traces.append(
             style.bars(
-                x=rows["p_from"],
-                y=rows["count"],
+                x=rows.column("p_from"),
+                y=rows.column("count"),
                 name=coordinate,
                 offsetgroup=coordinate,
                 legendgroup=coordinate,
@@ -117,8 +121,8 @@ def _evenness(evidence: Evidence, view: View, test: str, *, first: bool) -> styl
         )
     traces.append(
         style.scatter(
-            x=rows["p_from"],
-            y=rows["expected"],
+            x=rows.column("p_from"),
+            y=rows.column("expected"),
             mode="lines",
             name="expected",
             line={"color": style.INK, "dash": "dash", "width": 1.5},

@@ -6,6 +6,7 @@ from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View
 from reports.text.numbers import show
+from study.analysis.terminal_regions import REGION_SIZES, REGIONS
 
 
 def section(evidence: Evidence) -> Section:
@@ -22,7 +23,7 @@ def section(evidence: Evidence) -> Section:
                     Prose(per_view(evidence.views, lambda view: _say(evidence, view))),
                     _sizes(evidence),
                     TableBlock(
-                        "regions",
+                        REGIONS,
                         "Terminal edges and regions by number of points",
                         columns=(
                             "n_points",
@@ -45,28 +46,28 @@ def section(evidence: Evidence) -> Section:
 
 
 def _say(evidence: Evidence, view: View) -> list[str] | None:
-    rows = evidence.rows("regions", view)
+    rows = evidence.rows(REGIONS, view)
     if rows.empty:
         return None
-    last = rows.iloc[-1]
+    last = rows.last
     return [
         f"In {view.method_word} triangulations of {last['n_points']:,} {view.distribution_word} "
         f"points, {show(last['pair_share'], 'percent1')} of the triangles stand in a terminal "
         "pair: a refinement that starts there touches nothing else. The triangles whose paths end "
         f"at one terminal edge make a region of {show(last['mean_region'], 'fixed2')} triangles on "
-        f"average; the largest of all had {last['max_region']:,}."
+        f"average; the largest in these triangulations has {last['max_region']:,}."
     ]
 
 
 def _sizes(evidence: Evidence) -> FigureBlock:
     def draw(view: View) -> Spec | None:
-        rows = evidence.rows("region_sizes", view)
+        rows = evidence.rows(REGION_SIZES, view)
         if rows.empty:
             return None
         return style.plot(
             style.scatter(
-                x=rows["region_size"],
-                y=rows["share"],
+                x=rows.column("region_size"),
+                y=rows.column("share"),
                 mode="markers",
                 name="share of the regions",
                 marker=style.marker(0, 6),
@@ -77,16 +78,17 @@ def _sizes(evidence: Evidence) -> FigureBlock:
         )
 
     def say(view: View) -> str | None:
-        rows = evidence.rows("region_sizes", view)
+        rows = evidence.rows(REGION_SIZES, view)
         if rows.empty:
             return None
-        common = rows.loc[rows["share"].idxmax()]
+        common = rows.frame.loc[rows["share"].idxmax()]
         within = rows["share"].cumsum()
-        ninety = rows.loc[(within >= 0.9).idxmax()]
+        ninety = rows.frame.loc[(within >= 0.9).idxmax()]
         return (
             f"The commonest region has {common['region_size']} triangles "
             f"({show(common['share'], 'percent1')} of the regions); nine in ten have at most "
-            f"{ninety['region_size']}; the largest has {rows['region_size'].max():,}."
+            f"{ninety['region_size']}; the largest, of all numbers of points, has "
+            f"{rows['region_size'].max():,}."
         )
 
     return FigureBlock(
@@ -95,5 +97,5 @@ def _sizes(evidence: Evidence) -> FigureBlock:
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
         reading="The vertical scale is logarithmic.",
-        data=(TableBlock("region_sizes", "Data: sizes of the regions"),),
+        data=(TableBlock(REGION_SIZES, "Data: sizes of the regions"),),
     )

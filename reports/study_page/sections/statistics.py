@@ -10,6 +10,13 @@ from reports.page.views import View
 from reports.study_page.sections.assumptions import assumptions
 from reports.study_page.sections.randomness import randomness
 from reports.text.numbers import count, listed, show
+from reports.text.words import LEVEL
+from study.analysis.bound_tests import BOUNDS, LOWER_BOUND, UPPER_BOUND
+from study.analysis.group_summaries import GROUPS
+from study.analysis.pairwise_comparisons import NOT_SHOWN, PAIRS
+from study.analysis.variance_analysis import ANOVA, OMEGA_SQUARED
+from study.statistics.thresholds import SIGNIFICANCE
+from study.statistics.verdicts import REJECTED, YES
 
 
 def section(evidence: Evidence) -> Section:
@@ -27,7 +34,7 @@ def section(evidence: Evidence) -> Section:
                 (
                     Prose(per_view(evidence.views, lambda view: _anova(evidence, view))),
                     TableBlock(
-                        "anova",
+                        ANOVA,
                         "Table 5. Analysis of variance, three ways",
                         columns=(
                             "test",
@@ -46,12 +53,12 @@ def section(evidence: Evidence) -> Section:
             ),
             Subsection(
                 "bounds",
-                "Is the mean between 2 and 4?",
+                f"Is the mean between {LOWER_BOUND} and {UPPER_BOUND}?",
                 (
                     Prose(per_view(evidence.views, lambda view: _bounds(evidence, view))),
                     TableBlock(
-                        "bounds",
-                        "Table 6. t tests of every group against 2 and 4",
+                        BOUNDS,
+                        f"Table 6. t tests of every group against {LOWER_BOUND} and {UPPER_BOUND}",
                         columns=(
                             "n_points",
                             "bound",
@@ -74,10 +81,10 @@ def section(evidence: Evidence) -> Section:
 
 
 def _anova(evidence: Evidence, view: View) -> list[str] | None:
-    rows = evidence.rows("anova", view).drop_duplicates("test")
+    rows = evidence.rows(ANOVA, view).frame.drop_duplicates("test")
     if rows.empty:
         return None
-    differ = rows["log10_p"] < np.log10(0.05)
+    differ = rows["log10_p"] < np.log10(SIGNIFICANCE)
     tests = listed([f"{row.test} ({show(row.log10_p, 'log10p')})" for row in rows.itertuples()])
     verdict = (
         "The mean LEPP size does depend on the number of points"
@@ -86,31 +93,31 @@ def _anova(evidence: Evidence, view: View) -> list[str] | None:
         if not differ.any()
         else "The tests disagree on whether the mean LEPP size depends on the number of points"
     )
-    said = [f"{verdict}, for {view.distribution_word} points; p by test: {tests}."]
-    effect = evidence.one("anova", view, effect="omega squared")
-    groups = evidence.rows("groups", view)["mean_lepp"].dropna()
+    sentences = [f"{verdict}, for {view.distribution_word} points; p by test: {tests}."]
+    effect = evidence.one(ANOVA, view, effect=OMEGA_SQUARED)
+    groups = evidence.rows(GROUPS, view)["mean_lepp"].dropna()
     if effect is not None and len(groups) > 1:
-        said.append(
+        sentences.append(
             f"The number of points accounts for {show(effect['effect_size'], 'percent0')} of the "
             f"variance between triangulations. The dependence is small in itself: the groups' "
             f"means span {show(groups.min(), 'fixed4')} to {show(groups.max(), 'fixed4')}."
         )
-    return said
+    return sentences
 
 
 def _pairs(evidence: Evidence) -> FigureBlock:
     def draw(view: View) -> Spec | None:
-        pairs = evidence.rows("pairs", view)
+        pairs = evidence.rows(PAIRS, view)
         if pairs.empty:
             return None
-        alike = evidence.rows("pairs", view, different="not shown")
+        alike = evidence.rows(PAIRS, view, different=NOT_SHOWN)
         sizes = sorted({*pairs["n_points_1"], *pairs["n_points_2"]})
         return style.plot(
             style.heatmap(
-                x=pairs["n_points_1"],
-                y=pairs["n_points_2"],
-                z=pairs["difference"],
-                customdata=pairs["p"],
+                x=pairs.column("n_points_1"),
+                y=pairs.column("n_points_2"),
+                z=pairs.column("difference"),
+                customdata=pairs.column("p"),
                 colorscale=style.SCALE,
                 xgap=1,
                 ygap=1,
@@ -123,12 +130,12 @@ def _pairs(evidence: Evidence) -> FigureBlock:
                 hovertemplate="%{y} − %{x}: %{z:.4f}, p %{customdata:.2g}<extra></extra>",
             ),
             style.scatter(
-                x=alike["n_points_1"],
-                y=alike["n_points_2"],
+                x=alike.column("n_points_1"),
+                y=alike.column("n_points_2"),
                 mode="text",
                 text="·",
                 textfont={"size": 15, "color": style.INK},
-                name="not shown to differ",
+                name=f"{NOT_SHOWN} to differ",
                 hoverinfo="skip",
             ),
             xaxis=style.sizes_axis(sizes, "Points, first group"),
@@ -138,13 +145,13 @@ def _pairs(evidence: Evidence) -> FigureBlock:
         )
 
     def say(view: View) -> str | None:
-        pairs = evidence.rows("pairs", view)
+        pairs = evidence.rows(PAIRS, view)
         if pairs.empty:
             return None
-        differ = int((pairs["different"] == "yes").sum())
-        largest = pairs.loc[pairs["difference"].abs().idxmax()]
+        differ = int((pairs["different"] == YES).sum())
+        largest = pairs.frame.loc[pairs["difference"].abs().idxmax()]
         return (
-            f"{differ} of {count(len(pairs), 'pair')} of groups differ (95\u00a0% level for all "
+            f"{differ} of {count(len(pairs), 'pair')} of groups differ ({LEVEL} level for all "
             f"together). The largest difference, {show(largest['difference'], 'fixed4')}, is that "
             f"of {largest['n_points_2']:,} and {largest['n_points_1']:,} points."
         )
@@ -156,30 +163,30 @@ def _pairs(evidence: Evidence) -> FigureBlock:
         alternatives=per_view(evidence.views, say),
         reading="A square is the second group's mean less the first's; a dot marks pairs that "
         "cannot be told apart.",
-        data=(TableBlock("pairs", "Data: all pairs"),),
+        data=(TableBlock(PAIRS, "Data: all pairs"),),
     )
 
 
 def _bounds(evidence: Evidence, view: View) -> list[str] | None:
-    said = []
-    for bound, side in ((4, "below"), (2, "above")):
-        rows = evidence.rows("bounds", view, bound=bound)
+    sentences = []
+    for bound, side in ((UPPER_BOUND, "below"), (LOWER_BOUND, "above")):
+        rows = evidence.rows(BOUNDS, view, bound=bound)
         if rows.empty:
             continue
-        rejected = int((rows["verdict"] == "rejected").sum())
+        rejected = int((rows["verdict"] == REJECTED).sum())
         weakest = rows["log10_p_bonferroni"].max()
         where = (
             "every group" if rejected == len(rows) else f"{rejected} of {count(len(rows), 'group')}"
         )
-        said.append(
+        sentences.append(
             f"In {where} of {view.distribution_word} points the mean is significantly {side} "
             f"{bound}; the largest p is {show(weakest, 'log10p')}, corrected for all tests."
         )
-    rows = evidence.rows("bounds", view, bound=4)
+    rows = evidence.rows(BOUNDS, view, bound=UPPER_BOUND)
     if not rows.empty:
-        said.append(
+        sentences.append(
             "A p-value says only that the mean is not the bound; its interval says how far it is: "
             f"over all groups they reach from {show(rows['mean_low'].min(), 'fixed4')} "
             f"to {show(rows['mean_high'].max(), 'fixed4')}."
         )
-    return [" ".join(said)] if said else None
+    return [" ".join(sentences)] if sentences else None

@@ -1,5 +1,8 @@
 """The theory against the measurement: Theorems 1 and 2, the geometric law, the worst case."""
 
+import pandas as pd
+
+from lepp.theory import LEAST_P
 from reports.page import style
 from reports.page.blocks import FigureBlock, Prose, Section, Subsection, TableBlock, per_view
 from reports.page.evidence import Evidence
@@ -7,8 +10,22 @@ from reports.page.style import Spec
 from reports.page.views import View
 from reports.study_page.sections.worst_case import worst_case
 from reports.text.numbers import listed, show
+from reports.text.words import LEVEL, PREMISE
+from study.analysis.path_lengths import LAW, TERMINATION
+from study.analysis.theorems import (
+    LEAST_P_TEXT,
+    MOST_SD,
+    NEIGHBOR_TYPES,
+    STATISTICS,
+    THEOREM_1,
+    THEOREM_2,
+    TYPES,
+)
+from study.statistics.thresholds import A_HUNDREDTH, CONSTANT_RATE, ROUGH_RATE, WITHIN_ONE_PERCENT
+from study.statistics.verdicts import NO, YES
 
-STATISTICS = ("mean", "standard deviation", "skewness", "excess kurtosis")
+#: The size from which on paths are called long.
+LONG = 8
 
 
 def section(evidence: Evidence) -> Section:
@@ -25,7 +42,7 @@ def section(evidence: Evidence) -> Section:
                 (
                     Prose(per_view(evidence.views, lambda view: _premise(evidence, view))),
                     _types(evidence),
-                    TableBlock("theorem_2", "Theorem 2: its premise and its bounds", folded=True),
+                    TableBlock(THEOREM_2, "Theorem 2: its premise and its bounds", folded=True),
                 ),
             ),
             Subsection(
@@ -34,7 +51,7 @@ def section(evidence: Evidence) -> Section:
                 (
                     Prose(per_view(evidence.views, lambda view: _theorem_1(evidence, view))),
                     TableBlock(
-                        "theorem_1",
+                        THEOREM_1,
                         f"Theorem 1 and the measurement at {max(evidence.design.sizes):,} points",
                         where=largest,
                     ),
@@ -52,25 +69,18 @@ def section(evidence: Evidence) -> Section:
 
 
 def _premise(evidence: Evidence, view: View) -> list[str] | None:
-    rows = evidence.rows("theorem_2", view)
+    rows = evidence.rows(THEOREM_2, view)
     if rows.empty:
         return None
-    p = rows.iloc[-1]
-    holds = rows["premise"].value_counts()
-    premise = (
-        "so the premise of Theorem 2, p\u00a0≥\u00a01/3, holds in every group"
-        if holds.get("yes", 0) == len(rows)
-        else "so the premise of Theorem 2, p\u00a0≥\u00a01/3, fails in every group"
-        if holds.get("no", 0) == len(rows)
-        else "so the premise of Theorem 2, p\u00a0≥\u00a01/3, is clear in "
-        f"{int(holds.get('yes', 0) + holds.get('no', 0))} of {len(rows)} groups"
-    )
-    kept = rows["bounds"] == "yes"
+    p = rows.last
+    premise = f"so the premise of Theorem 2, {PREMISE}, {_in_groups(rows['premise'])}"
+    kept = rows["bounds"] == YES
     outcome = (
         "Its bounds hold in every single triangulation: means from "
         f"{show(rows['lowest_mean'].min(), 'fixed4')} to "
         f"{show(rows['highest_mean'].max(), 'fixed4')}, standard deviations up to "
-        f"{show(rows['highest_sd'].max(), 'fixed4')}, where √6 is {show(6**0.5, 'fixed4')}."
+        f"{show(rows['highest_sd'].max(), 'fixed4')}, where √{MOST_SD**2:g} is "
+        f"{show(MOST_SD, 'fixed4')}."
         if kept.all()
         else f"Its bounds are broken in {int((~kept).sum())} of {len(rows)} groups."
     )
@@ -81,17 +91,26 @@ def _premise(evidence: Evidence, view: View) -> list[str] | None:
     ]
 
 
+def _in_groups(premise: pd.Series) -> str:
+    holds, fails = int((premise == YES).sum()), int((premise == NO).sum())
+    if len(premise) in (holds, fails):
+        return f"{'holds' if holds else 'fails'} in every group"
+    if fails:
+        return f"fails in {fails} of {len(premise)} groups"
+    return f"is clear in {holds} of {len(premise)} groups"
+
+
 def _types(evidence: Evidence) -> FigureBlock:
     def draw(view: View) -> Spec | None:
         traces = []
-        for series, name in enumerate("ABC"):
-            rows = evidence.rows("neighbor_types", view, type=name)
+        for series, name in enumerate(TYPES):
+            rows = evidence.rows(NEIGHBOR_TYPES, view, type=name)
             if rows.empty:
                 return None
             traces.append(
                 style.scatter(
-                    x=rows["n_points"],
-                    y=rows["share"],
+                    x=rows.column("n_points"),
+                    y=rows.column("share"),
                     mode="lines+markers",
                     name=f"type {name}",
                     line=style.line(series),
@@ -105,15 +124,17 @@ def _types(evidence: Evidence) -> FigureBlock:
             yaxis=style.axis(
                 "Share of longest-edge neighbours", tickformat=".0%", rangemode="tozero"
             ),
-            levels=[style.Level(1 / 3, "p = 1/3")],
+            levels=[style.Level(LEAST_P, f"p = {LEAST_P_TEXT}")],
         )
 
     def say(view: View) -> str | None:
-        rows = evidence.rows("neighbor_types", view)
+        rows = evidence.rows(NEIGHBOR_TYPES, view)
         if rows.empty:
             return None
-        last = rows[rows["n_points"] == rows["n_points"].max()]
-        shares = [f"{show(row.share, 'percent2')} of type {row.type}" for row in last.itertuples()]
+        last = rows.select(n_points=rows["n_points"].max())
+        shares = [
+            f"{show(row.share, 'percent2')} of type {row.type}" for row in last.frame.itertuples()
+        ]
         return (
             f"At {last['n_points'].iloc[0]:,} points, {listed(shares)}. A neighbour is of type A, "
             "B or C when the crossed edge is its shortest, middle or longest."
@@ -125,24 +146,24 @@ def _types(evidence: Evidence) -> FigureBlock:
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
         reading="The dotted line is the least share of type C that Theorem 2 supposes.",
-        data=(TableBlock("neighbor_types", "Data: shares of the types by number of points"),),
+        data=(TableBlock(NEIGHBOR_TYPES, "Data: shares of the types by number of points"),),
     )
 
 
 def _theorem_1(evidence: Evidence, view: View) -> list[str] | None:
-    rows = evidence.rows("theorem_1", view)
+    rows = evidence.rows(THEOREM_1, view)
     if rows.empty:
         return None
-    last = rows[rows["n_points"] == rows["n_points"].max()]
+    last = rows.select(n_points=rows["n_points"].max())
     off = [
         f"the {row.statistic} {show(abs(row.relative_difference), 'percent1')} "
         f"{'above' if row.relative_difference > 0 else 'below'}"
-        for row in last.itertuples()
+        for row in last.frame.itertuples()
     ]
     differences = last["relative_difference"]
     verdict = (
         "It describes the measurement closely"
-        if differences.abs().max() < 0.01
+        if differences.abs().max() < WITHIN_ONE_PERCENT
         else "It puts all four too high"
         if (differences < 0).all()
         else "It puts all four too low"
@@ -158,21 +179,21 @@ def _theorem_1(evidence: Evidence, view: View) -> list[str] | None:
 
 def _moments(evidence: Evidence) -> FigureBlock:
     def draw(view: View) -> Spec | None:
-        if evidence.rows("theorem_1", view).empty:
+        if evidence.rows(THEOREM_1, view).empty:
             return None
         return style.panels(
             [_moment(evidence, view, name) for name in STATISTICS], columns=2, height=540
         )
 
     def say(view: View) -> str | None:
-        rows = evidence.rows("theorem_1", view)
+        rows = evidence.rows(THEOREM_1, view)
         if rows.empty:
             return None
         inside = int(
             ((rows["low"] <= rows["predicted"]) & (rows["predicted"] <= rows["high"])).sum()
         )
         return (
-            f"Theorem 1's value lies inside the 95\u00a0% interval of the measured one in {inside} "
+            f"Theorem 1's value lies inside the {LEVEL} interval of the measured one in {inside} "
             f"of {len(rows)} cases (four moments at each number of points)."
         )
 
@@ -182,16 +203,16 @@ def _moments(evidence: Evidence) -> FigureBlock:
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
         reading="The scales differ; what matters is the distance between the two lines of a panel.",
-        data=(TableBlock("theorem_1", "Data: moments by number of points"),),
+        data=(TableBlock(THEOREM_1, "Data: moments by number of points"),),
     )
 
 
 def _moment(evidence: Evidence, view: View, statistic: str) -> style.Panel:
-    rows = evidence.rows("theorem_1", view, statistic=statistic)
+    rows = evidence.rows(THEOREM_1, view, statistic=statistic)
     traces = [
         style.scatter(
-            x=rows["n_points"],
-            y=rows[column],
+            x=rows.column("n_points"),
+            y=rows.column(column),
             mode="lines+markers",
             name=name,
             legendgroup=name,
@@ -211,9 +232,8 @@ def _moment(evidence: Evidence, view: View, statistic: str) -> style.Panel:
 
 def _termination(evidence: Evidence) -> FigureBlock:
     def draw(view: View) -> Spec | None:
-        rows = evidence.rows("termination", view)
-        rows = rows[rows["lepp_size"] >= 2] if not rows.empty else rows
-        rows = rows[rows["low"].notna()] if not rows.empty else rows
+        rows = _steps(evidence, view)
+        rows = rows[rows["low"].notna()]
         if rows.empty:
             return None
         p = float(rows["p_type_c"].iloc[0])
@@ -242,26 +262,17 @@ def _termination(evidence: Evidence) -> FigureBlock:
         )
 
     def say(view: View) -> str | None:
-        rows = evidence.rows("termination", view)
-        rows = rows[rows["lepp_size"] >= 2] if not rows.empty else rows
+        rows = _steps(evidence, view)
         if rows.empty:
             return None
         steps = [
             f"{show(row.rate, 'percent1')} at size {row.lepp_size}"
             for row in rows.head(4).itertuples()
         ]
-        sure = rows[rows["high"] - rows["low"] < 0.05]
-        rates = sure["rate"] if len(sure) > 1 else rows["rate"]
-        trend = (
-            "rises with every step"
-            if rates.is_monotonic_increasing
-            else "falls with every step"
-            if rates.is_monotonic_decreasing
-            else f"moves between {show(rates.min(), 'percent1')} and "
-            f"{show(rates.max(), 'percent1')}"
-        )
-        constant = float(rates.max() - rates.min()) < 0.01
-        verdict = "is constant to a hundredth, as" if constant else f"{trend}, where"
+        sure = rows[(rows["high"] - rows["low"] < ROUGH_RATE).cummin()]
+        known = sure if len(sure) > 1 else rows
+        constant = float(known["rate"].max() - known["rate"].min()) < CONSTANT_RATE
+        verdict = f"is constant to {A_HUNDREDTH}, as" if constant else f"{_trend(known)}, while"
         return (
             f"The share of paths that end {verdict} Theorem 1 takes it to be constant: "
             f"{listed(steps)}."
@@ -272,27 +283,42 @@ def _termination(evidence: Evidence) -> FigureBlock:
         title="Termination rate at each size of the path",
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
-        reading="Of the paths that reach a size, the share that end there, with 95\u00a0% "
+        reading=f"Of the paths that reach a size, the share that end there, with {LEVEL} "
         "intervals.",
-        data=(TableBlock("termination", "Data: termination rates"),),
+        data=(TableBlock(TERMINATION, "Data: termination rates"),),
     )
+
+
+def _steps(evidence: Evidence, view: View) -> pd.DataFrame:
+    """Termination rates from size 2 on, that is without the paths that never take a step."""
+    rows = evidence.rows(TERMINATION, view)
+    return rows.frame[rows["lepp_size"] >= 2]
+
+
+def _trend(rows: pd.DataFrame) -> str:
+    rates, upto = rows["rate"], f"with every step up to size {rows['lepp_size'].iloc[-1]}"
+    if rates.is_monotonic_increasing:
+        return f"rises {upto}"
+    if rates.is_monotonic_decreasing:
+        return f"falls {upto}"
+    return f"moves between {show(rates.min(), 'percent1')} and {show(rates.max(), 'percent1')}"
 
 
 def _law(evidence: Evidence) -> FigureBlock:
     def draw(view: View) -> Spec | None:
-        rows = evidence.rows("law", view)
+        rows = evidence.rows(LAW, view)
         if rows.empty:
             return None
         return style.plot(
             style.bars(
-                x=rows["lepp_size"],
-                y=rows["share"],
+                x=rows.column("lepp_size"),
+                y=rows.column("share"),
                 name="measured",
                 marker={"color": style.SERIES[0]},
                 hovertemplate="size %{x}: %{y:.3%}<extra>measured</extra>",
             ),
             style.scatter(
-                x=rows["lepp_size"],
+                x=rows.column("lepp_size"),
                 y=rows["geometric_share"].where(rows["geometric_share"] > 0),
                 mode="lines+markers",
                 name="geometric law of the measured p",
@@ -306,28 +332,28 @@ def _law(evidence: Evidence) -> FigureBlock:
         )
 
     def say(view: View) -> str | None:
-        rows = evidence.rows("law", view)
-        rows = rows[rows["geometric_share"] > 0] if not rows.empty else rows
+        law = evidence.rows(LAW, view)
+        rows = law.frame[law["geometric_share"] > 0]
         if rows.empty:
             return None
         common = rows.loc[rows["share"].idxmax()]
-        long = rows[rows["lepp_size"] >= 8]
-        said = (
+        long = rows[rows["lepp_size"] >= LONG]
+        sentence = (
             f"The commonest size is {common['lepp_size']} ({show(common['share'], 'percent1')} of "
             f"the triangles; the law has {show(common['geometric_share'], 'percent1')})."
         )
         if len(long):
-            # The law's own tail: (1 - p)^6 of the paths are of size 8 and more.
-            p = float(evidence.rows("termination", view)["p_type_c"].iloc[0])
-            measured, expected = float(long["share"].sum()), float((1 - p) ** 6)
-            said += (
-                f" Sizes of 8 and more are {show(expected / measured, 'g2')} times rarer than in "
-                "the law."
+            # The law's own tail: (1 - p)^(k - 2) of the paths are of size k and more.
+            p = float(evidence.rows(TERMINATION, view).first["p_type_c"])
+            measured, expected = float(long["share"].sum()), float((1 - p) ** (LONG - 2))
+            sentence += (
+                f" Sizes of {LONG} and more are {show(expected / measured, 'g2')} times rarer than "
+                "in the law."
                 if measured < expected
-                else f" Sizes of 8 and more are {show(measured / expected, 'g2')} times as common "
-                "as in the law."
+                else f" Sizes of {LONG} and more are {show(measured / expected, 'g2')} times as "
+                "common as in the law."
             )
-        return said
+        return sentence
 
     return FigureBlock(
         id="figure-law",
@@ -335,5 +361,5 @@ def _law(evidence: Evidence) -> FigureBlock:
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
         reading="The vertical scale is logarithmic: a geometric law is a straight line.",
-        data=(TableBlock("law", "Data: LEPP sizes and the law"),),
+        data=(TableBlock(LAW, "Data: LEPP sizes and the law"),),
     )

@@ -5,6 +5,8 @@ import numpy as np
 import lepp
 from reports.page.blocks import ALWAYS, Drawing, Subsection, TableBlock, common
 from reports.page.evidence import Evidence
+from study.analysis.worst_case_strip import WORST_CASE
+from study.statistics.verdicts import YES, all_of
 
 _TRIANGLES = 12
 _WIDTH = 640.0
@@ -42,9 +44,9 @@ def _figure_2(evidence: Evidence) -> Drawing:
         }
         for triangle, size in zip(strip.triangles, sizes, strict=True)
     ]
-    rows = evidence.rows("worst_case")
-    largest = rows.iloc[-1]
-    equal = bool((rows["equal"] == "yes").all())
+    rows = evidence.rows(WORST_CASE)
+    largest = rows.last
+    equal = bool(all_of(rows["equal"]) == YES)
     return Drawing(
         id="figure-2",
         template="strip.html.j2",
@@ -67,5 +69,5 @@ def _figure_2(evidence: Evidence) -> Drawing:
             )
         },
         reading="Every edge across the strip is longer than the one to its left.",
-        data=(TableBlock("worst_case", "Data: strips of growing length", follows=()),),
+        data=(TableBlock(WORST_CASE, "Data: strips of growing length", follows=()),),
     )

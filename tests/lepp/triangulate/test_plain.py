@@ -1,6 +1,7 @@
 import json
 from pathlib import Path
 
+import aimed
 import naive
 import numpy as np
 import pytest
@@ -11,6 +12,10 @@ from validity import assert_valid
 import lepp
 
 REFERENCE = json.loads((Path(__file__).parents[1] / "lepp_reference.json").read_text())
+
+
+def as_set(triangles):
+    return {naive.canonical(tuple(t)) for t in triangles.tolist()}
 
 
 @pytest.mark.parametrize("case", REFERENCE, ids=lambda c: f"{c['points']}-{c['n']}-{c['seed']}")
@@ -35,7 +40,7 @@ def test_triangles_are_those_of_one_by_one_insertion(points):
             lepp.triangulate(points)
         return
     ours = lepp.triangulate(points)
-    assert {naive.canonical(tuple(t)) for t in ours.triangles.tolist()} == triangles
+    assert as_set(ours.triangles) == triangles
     assert dict(ours.repeated.tolist()) == repeated
     assert_valid(ours)
 
@@ -45,9 +50,15 @@ def test_triangles_are_those_of_one_by_one_insertion(points):
 def test_larger_sets_agree_with_one_by_one_insertion(kind, n):
     points = reference_points(kind, n, 5)
     ours = lepp.triangulate(points)
-    assert {naive.canonical(tuple(t)) for t in ours.triangles.tolist()} == naive.incremental(
-        points
-    )[0]
+    assert as_set(ours.triangles) == naive.incremental(points)[0]
+    assert_valid(ours)
+
+
+@pytest.mark.parametrize("name", aimed.PLAIN)
+def test_triangles_are_right_where_rounding_is_worst(name):
+    points = aimed.read(aimed.PLAIN[name])
+    ours = lepp.triangulate(points)
+    assert as_set(ours.triangles) == naive.incremental(points)[0]
     assert_valid(ours)
 
 
@@ -56,9 +67,7 @@ def test_points_on_edges_split_both_sides():
         [[0, 0], [4, 0], [4, 4], [0, 4], [2, 2], [1, 1], [2, 0], [3, 3], [1, 0]], float
     )
     ours = lepp.triangulate(points)
-    assert {naive.canonical(tuple(t)) for t in ours.triangles.tolist()} == naive.incremental(
-        points
-    )[0]
+    assert as_set(ours.triangles) == naive.incremental(points)[0]
     assert_valid(ours)
 
 

@@ -15,6 +15,7 @@ import trimesh
 from playwright.sync_api import Browser, Page
 
 import lepp
+from reports.mesh_page import findings
 from reports.mesh_page import page as mesh_page
 from reports.mesh_page.page import drawn_triangles, packed, render, size_classes
 from study.meshes.read import ReadMesh
@@ -41,46 +42,102 @@ def surface() -> Survey:
     return _survey(np.array(torus.vertices), np.array(torus.faces), "torus.ply")
 
 
+@pytest.fixture(scope="module")
+def lattice() -> Survey:
+    """Equilateral triangles in space, where coordinates are exact: all edges are equal."""
+    k = 6
+    a, b = (grid.ravel() for grid in np.meshgrid(np.arange(k), np.arange(k), indexing="ij"))
+    corner = a[(a < k - 1) & (b < k - 1)] * k + b[(a < k - 1) & (b < k - 1)]
+    triangles = np.concatenate(
+        (
+            np.column_stack((corner, corner + k, corner + k + 1)),
+            np.column_stack((corner, corner + k + 1, corner + 1)),
+        )
+    )
+    # All edges are (1, -1, 0), (0, 1, -1), or their sum.
+    points = np.column_stack((a, b - a, -b)).astype(float)
+    return _survey(points, triangles, "lattice.ply")
+
+
+@pytest.fixture(scope="module")
+def fan() -> Survey:
+    """Triangles about a point, three to a quarter: longest edges meet there, and some are equal."""
+    rim = [(4, 0), (4, 3), (3, 4), (0, 4), (-3, 4), (-4, 3), (-4, 0), (-4, -3), (-3, -4), (0, -4)]
+    points = np.array([(0, 0), *rim, (3, -4), (4, -3)], float)
+    around = np.arange(1, len(points))
+    triangles = np.column_stack((np.zeros_like(around), around, np.roll(around, -1)))
+    return _survey(points, triangles, "fan.vtu")
+
+
+@pytest.fixture(scope="module")
+def kite() -> Survey:
+    """The path of the second triangle ends in a pair, that of the first on the boundary."""
+    points = np.array([(0, 0), (5, 0), (3, 4), (2, -1)], float)
+    return _survey(points, np.array([(0, 1, 2), (1, 0, 3)]), "kite.vtu")
+
+
 def unpacked(found: Survey, drawn: np.ndarray) -> list[np.ndarray]:
     about = mesh_page.drawing(found, drawn)
     content = zlib.decompress(base64.b64decode(packed(found, drawn)))
     m, n, d = about["triangles"], about["points"], about["dimensions"]
     lengths = np.cumsum([n * d, 3 * m, m, m])
-    points, *rest = np.split(np.frombuffer(content, "<i4"), lengths)
-    return [points.view("<f4").reshape(n, d), rest[0].reshape(m, 3), *rest[1:]]
+    assert len(content) == 4 * (lengths[-1] + m) + m
+    points, *rest = np.split(np.frombuffer(content[:-m], "<i4"), lengths)
+    ends = np.frombuffer(content[-m:], np.uint8)
+    return [points.view("<f4").reshape(n, d), rest[0].reshape(m, 3), *rest[1:], ends]
 
 
-def test_data_block_is_the_survey(plane: Survey) -> None:
-    drawn = drawn_triangles(plane)
-    points, triangles, successors, sizes, numbers = unpacked(plane, drawn)
-    own = plane.triangulation
+@pytest.mark.parametrize("name", ["plane", "surface", "lattice", "fan", "kite"])
+def test_data_block_is_the_survey(name: str, request: pytest.FixtureRequest) -> None:
+    found: Survey = request.getfixturevalue(name)
+    drawn = drawn_triangles(found)
+    points, triangles, successors, sizes, numbers, ends = unpacked(found, drawn)
+    own = found.triangulation
     corners = own.points[own.triangles]
     scale = np.ptp(own.points, axis=0).max() / 2
     middle = (own.points.min(axis=0) + own.points.max(axis=0)) / 2
     assert np.allclose(points[triangles], (corners - middle) / scale, atol=1e-6)
-    assert np.array_equal(sizes, plane.paths.sizes)
+    assert np.array_equal(sizes, found.paths.sizes)
     assert np.array_equal(numbers, np.arange(len(own)))
-    inner = plane.paths.successors >= 0
-    assert np.array_equal(successors[inner], plane.paths.successors[inner])
-    for t in np.flatnonzero(~inner):
-        edge = np.delete(own.triangles[t], -1 - successors[t])
-        assert set(edge) == set(plane.paths.terminal_edges[plane.paths.regions[t]])
+    assert np.array_equal(successors, found.paths.successors)
+    types = found.paths.neighbor_types
+    assert np.array_equal(ends == 0, (types == lepp.TYPE_A) | (types == lepp.TYPE_B))
+    for t in np.flatnonzero(ends):
+        in_pair, across = divmod(ends[t] - 1, 3)
+        assert in_pair == (types[t] == lepp.TYPE_C)
+        edge = np.delete(own.triangles[t], across)
+        assert set(edge) == set(found.paths.terminal_edges[found.paths.regions[t]])
 
 
 def test_of_a_large_mesh_the_surroundings_of_the_longest_path_are_drawn(plane: Survey) -> None:
     drawn = drawn_triangles(plane, 60)
     assert len(drawn) == 60
     assert np.isin(plane.worst_path, drawn).all()
-    _, _, successors, sizes, numbers = unpacked(plane, drawn)
+    _, _, successors, sizes, numbers, ends = unpacked(plane, drawn)
     assert np.array_equal(sizes, plane.paths.sizes[drawn])
+    assert np.array_equal(ends, unpacked(plane, drawn_triangles(plane))[5][drawn])
+    assert mesh_page.drawing(plane, drawn)["total"] == len(plane.triangulation)
     for place, t in enumerate(drawn):
         following = plane.paths.successors[t]
-        if following < 0:
-            assert -3 <= successors[place] <= -1
-        elif following in drawn:
+        if following in drawn:
             assert numbers[successors[place]] == following
         else:
-            assert successors[place] == -4
+            assert successors[place] == -1
+
+
+@pytest.mark.parametrize("name", ["plane", "lattice", "fan", "kite"])
+def test_longest_path_is_told_with_the_edge_that_it_ends_at(
+    name: str, request: pytest.FixtureRequest
+) -> None:
+    found: Survey = request.getfixturevalue(name)
+    *_, before, last = found.worst_path
+    shared = set(found.triangulation.triangles[before]) & set(found.triangulation.triangles[last])
+    said = re.search(r"edge is (.*), from point ([\d,]+) to point ([\d,]+)", findings.worst(found))
+    assert said
+    ends = {int(point.replace(",", "")) for point in said.groups()[1:]}
+    in_pair = found.paths.neighbor_types[before] == lepp.TYPE_C
+    assert said[1] == ("between the last two" if in_pair else "on the boundary")
+    assert (ends == shared) == in_pair
 
 
 @pytest.mark.parametrize("largest", [1, 2, 5, 6, 16, 17, 40, 5000])
@@ -134,7 +191,11 @@ def chosen(page: Page) -> int:
 
 
 def on_screen(page: Page, points: np.ndarray) -> np.ndarray:
-    """Where points of a plane mesh lie when the whole of it is shown."""
+    """Where points of a plane mesh lie; the whole of it is shown from here on."""
+    page.get_by_role("button", name="Whole mesh").click()
+    page.locator(".stage").evaluate(
+        "stage => stage.scrollIntoView({ block: 'center', behavior: 'instant' })"
+    )
     box = page.locator(".stage").bounding_box()
     assert box
     low, high = points.min(axis=0), points.max(axis=0)
@@ -192,6 +253,7 @@ def test_a_triangle_can_be_asked_for_and_the_drawing_moved(
     open_mesh: Callable, plane: Survey
 ) -> None:
     page = open_mesh(plane)
+    page.get_by_role("button", name="Whole mesh").click()
     whole = picture(page)
     page.get_by_label("Triangle", exact=True).fill("41")
     page.keyboard.press("Enter")
@@ -201,11 +263,90 @@ def test_a_triangle_can_be_asked_for_and_the_drawing_moved(
     assert picture(page) == whole
     page.get_by_role("button", name="Closer").click()
     assert picture(page) != whole
-    page.get_by_label("Triangle", exact=True).fill("99999")
-    page.keyboard.press("Enter")
-    assert "is not drawn here" in page.locator(".said").inner_text()
+    for number in ("99999", "-1"):
+        page.get_by_label("Triangle", exact=True).fill(number)
+        page.keyboard.press("Enter")
+        said = page.locator(".said").inner_text()
+        assert said.startswith(f"There is no triangle {number}.")
+        assert f"from 0 to {len(plane.triangulation) - 1}." in said
+        assert chosen(page) == 41
     page.get_by_role("button", name="Longest path").click()
     assert chosen(page) == plane.worst_path[0]
+
+
+@pytest.mark.browser
+def test_of_a_part_the_button_and_the_field_know_the_whole(
+    open_mesh: Callable, plane: Survey, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn = drawn_triangles(plane, 60)
+    monkeypatch.setattr(mesh_page, "drawn_triangles", lambda found: drawn)
+    page = open_mesh(plane)
+    assert page.get_by_role("button", name="Whole mesh").count() == 0
+    assert page.get_by_role("button", name="All that is drawn").count() == 1
+    absent = np.setdiff1d(np.arange(len(plane.triangulation)), drawn)[0]
+    page.get_by_label("Triangle", exact=True).fill(str(absent))
+    page.keyboard.press("Enter")
+    said = page.locator(".said").inner_text()
+    assert said == f"Triangle {absent} is not among the 60 that are drawn."
+    page.get_by_label("Triangle", exact=True).fill(str(len(plane.triangulation)))
+    page.keyboard.press("Enter")
+    assert page.locator(".said").inner_text().startswith("There is no triangle")
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("name", ["lattice", "fan"])
+def test_paths_between_equal_edges_are_as_long_as_their_sizes(
+    open_mesh: Callable, name: str, request: pytest.FixtureRequest
+) -> None:
+    found: Survey = request.getfixturevalue(name)
+    paths = found.paths
+    page = open_mesh(found)
+    ends = set()
+    mutual = []
+    for t in range(len(found.triangulation)):
+        page.get_by_label("Triangle", exact=True).fill(str(t))
+        page.keyboard.press("Enter")
+        said = page.locator(".said").inner_text()
+        path = [t]
+        while len(path) < paths.sizes[t]:
+            path.append(int(paths.successors[path[-1]]))
+        if len(path) == 1:
+            assert said.endswith("LEPP size 1. Its longest edge lies on the boundary.")
+            continue
+        in_pair = paths.neighbor_types[path[-2]] == lepp.TYPE_C
+        ends.add(bool(in_pair))
+        mutual.append(paths.successors[path[-1]] == path[-2])
+        assert said == (
+            f"Triangle {t}: LEPP size {len(path)}. The path goes {' → '.join(map(str, path))}. "
+            + (
+                "It ends at an edge that is the longest of both triangles beside it."
+                if in_pair
+                else "It ends at an edge of the boundary."
+            )
+        )
+    assert True in ends
+    assert not all(mutual)  # or the mesh does not show what it is for
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("n_points", [100, 20_000])
+def test_the_longest_path_is_large_enough_to_be_seen_at_the_start(
+    open_mesh: Callable, n_points: int
+) -> None:
+    """Where the whole is shown it would be some pixels, but for its last triangles."""
+    points = np.random.default_rng(4).random((n_points, 2))
+    mesh = lepp.triangulate(points, method="delaunay")
+    page = open_mesh(_survey(points, mesh.triangles, "random.vtu"))
+    coloured = """canvas => {
+        const { width, height } = canvas;
+        const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
+        return data.filter((value, k) => k % 4 === 3 && value).length;
+    }"""
+    overlay = page.locator("canvas").nth(1)
+    assert overlay.evaluate(coloured) > 3000
+    start = picture(page)
+    page.get_by_role("button", name="Whole mesh").click()
+    assert (picture(page) == start) == (n_points == 100)
 
 
 @pytest.mark.browser
@@ -258,8 +399,12 @@ def test_it_fits_and_follows_the_theme(
     page = open_mesh(surface, color_scheme=scheme, viewport={"width": width, "height": 900})
     assert page.evaluate("document.documentElement.scrollWidth") == width
     before = picture(page)
-    page.locator("#theme").click()
+    theme = page.locator("#theme")
+    other = "Dark" if scheme == "light" else "Light"
+    assert (theme.text_content() or "").strip() == other  # the one it switches to
+    theme.click()
     assert picture(page) != before
+    assert (theme.text_content() or "").strip() == scheme.capitalize()
     legend = page.locator(".size-key li").all_inner_texts()
     assert legend == [
         str(low) if low == high else f"{low}–{high}"

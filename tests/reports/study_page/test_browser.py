@@ -156,21 +156,37 @@ def test_csv_downloads_are_the_files_on_disk(open_report: Open, report: Path) ->
         assert Path(started.value.path()).read_bytes() == on_disk.read_bytes()
 
 
-def test_cells_show_the_numbers_of_the_tables(open_report: Open, run_directory: Path) -> None:
-    """The script's digits are those of reports.text.numbers, for every cell of every table."""
+def test_cells_show_the_texts_of_the_tables(open_report: Open, run_directory: Path) -> None:
+    """Table 4 of the first view, cell by cell; and the sense of verdicts."""
     page = open_report()
-    for name, table in gather(run_directory).tables.items():
-        cells = page.evaluate(
-            """async name => {
-                const report = new Report(await inflate('report-data').json());
-                const table = report.tables.get(name);
-                return table.rows.map(row => row.map((v, k) => show(v, table.columns[k].format)));
-            }""",
-            name,
-        )
-        rows = table.frame.itertuples(index=False)
-        formats = [column.format for column in table.columns]
-        assert cells == [[show(v, f) for v, f in zip(row, formats, strict=True)] for row in rows]
+    table = gather(run_directory).tables["table_4"]
+    rows = table.rows(method=DESIGN.methods[0], distribution=DESIGN.distributions[0]).frame
+    shown = [column for column in table.columns if column.name not in ("method", "distribution")]
+    texts = [[show(row[c.name], c.format) for c in shown] for _, row in rows.iterrows()]
+    assert shown_rows(page, "table_4") == texts
+    verdicts = page.locator("[data-table='statements'] tbody .verdict")
+    words = {"yes": "good", "no": "bad", "undecided": "", "not tested": ""}
+    assert verdicts.count() > 10
+    for cell in verdicts.all():
+        assert cell.get_attribute("data-sense") == words[cell.inner_text().lower()]
+
+
+def test_the_script_asks_for_no_column_that_is_not_there(open_report: Open) -> None:
+    page = open_report()
+    said = page.evaluate(
+        """async () => {
+            const report = new ReportData(await inflate('report-data').json());
+            const ask = (act) => { try { act(); } catch (error) { return error.message; } };
+            const groups = report.table('groups');
+            return [ask(() => report.table('group')), ask(() => groups.select({n_point: 1})),
+                ask(() => groups.values('mean', [0]))];
+        }"""
+    )
+    assert said == [
+        "there is no table group",
+        "table groups has no column n_point",
+        "table groups has no column mean",
+    ]
 
 
 def test_dark_theme_follows_the_system_and_the_button(open_report: Open) -> None:

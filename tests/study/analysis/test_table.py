@@ -7,7 +7,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from study.analysis import Column, Table
+from study.analysis import Column, Declaration, Table, Tables
+from study.analysis.table import UnknownNameError, select
 
 COLUMNS = (
     Column("method", "Triangulation"),
@@ -47,3 +48,59 @@ def test_described_columns_must_be_the_frames():
 def test_formats_are_checked():
     with pytest.raises(ValueError, match="unknown format"):
         Column("x", "X", format="pretty")
+
+
+DECLARED = Declaration("t", "A table", COLUMNS, note="{n} rows")
+
+
+def test_cells_are_quoted_as_csv_readers_expect():
+    texts = ["plain", "a, b", 'say "a"', "two\nlines", "", " x "]
+    made = table([(text, 1, np.inf) for text in texts])
+    assert made.to_csv() == made.frame.to_csv(
+        index=False, header=[column.header for column in COLUMNS], lineterminator="\n"
+    )
+    back = list(csv.DictReader(io.StringIO(made.to_csv(), newline="")))
+    assert [row["method"] for row in back] == texts
+
+
+def test_what_a_row_lacks_is_null():
+    made = DECLARED.table([{"method": "a", "value": 2}, {"method": "b", "n_points": 7}], n=2)
+    assert made.note == "2 rows"
+    assert made.to_csv() == "method,n_points [points],value\na,,2.0\nb,7,\n"
+
+
+def test_a_typo_is_an_error_that_says_what_there_is():
+    made = DECLARED.table([{"method": "a", "n_points": 1, "value": 2}], n=1)
+    tables = Tables([made])
+    for typo in (
+        lambda: tables["T"],
+        lambda: tables.rows(Declaration("s", "S", COLUMNS)),
+        lambda: tables.rows(DECLARED, n_point=1),
+        lambda: tables.rows(DECLARED).select(n_point=1),
+        lambda: tables.rows(DECLARED)["n_point"],
+        lambda: tables.rows(DECLARED).column("n_point"),
+        lambda: select(made.frame, {"n_point": 1}),
+        lambda: DECLARED.table([{"n_point": 1}], n=1),
+    ):
+        with pytest.raises(UnknownNameError, match=r"only (t|method, n_points, value)$"):
+            typo()
+
+
+def test_rows_know_where_they_stand():
+    made = DECLARED.table(
+        [{"method": m, "n_points": n, "value": n / 7} for m in "ab" for n in (1, 2)], n=4
+    )
+    rows = made.rows(method="b")
+    assert len(rows) == 2
+    assert rows.select(n_points=2).where == {"method": "b", "n_points": 2}
+    value = rows.column("value")
+    assert (value.table, value.column, value.where) == ("t", "value", {"method": "b"})
+    assert (list(value), value.min(), value.max(), len(value)) == ([1 / 7, 2 / 7], 1 / 7, 2 / 7, 2)
+    assert made.rows(method="c").empty
+
+
+def test_tables_are_replaced_by_name():
+    one, two = DECLARED.table([], n=0), DECLARED.table([{"n_points": 1}], n=1)
+    tables = Tables([one])
+    assert len(tables.adding(two)["t"].frame) == 1
+    assert len(tables["t"].frame) == 0

@@ -4,12 +4,10 @@ import numpy as np
 import pytest
 from frames import design, frames
 from scipy import stats
-from test_assumptions import values_of
+from test_group_assumptions import values_of
 
 from lepp import LeppCounts
 from study.analysis import analyse
-from study.analysis.paths import ratio_interval
-from study.statistics.intervals import at_least
 
 
 def test_shares_of_types_by_hand(study):
@@ -58,14 +56,6 @@ def test_premise_is_judged_by_the_interval_of_p(study, method, premise):
     assert inside.all()
 
 
-@pytest.mark.parametrize(
-    ("low", "high", "verdict"),
-    [(0.34, 0.4, "yes"), (0.2, 0.3, "no"), (0.3, 0.4, "undecided"), (np.nan, np.nan, "undecided")],
-)
-def test_an_interval_decides_or_does_not(low, high, verdict):
-    assert at_least(1 / 3, low, high) == verdict
-
-
 def test_bounds_need_every_triangulation():
     asked = design(distributions=("uniform",))
     results, *others = frames(asked)
@@ -95,22 +85,6 @@ def test_termination_rates_are_those_of_the_pooled_histogram(study):
     np.testing.assert_allclose(frame["rate"], rates[1:])
     assert frame["lepp_size"].tolist() == list(range(1, len(dense)))
     assert frame["reached"].iloc[0] == dense.sum()
-
-
-def test_ratio_of_equal_sums_has_the_error_of_a_mean():
-    rng = np.random.default_rng(1)
-    reached = np.full(30, 1000)
-    ended = rng.binomial(1000, 0.4, 30)
-    rate, error, low, high = ratio_interval(ended, reached)
-    shares = ended / 1000
-    assert rate == pytest.approx(shares.mean())
-    assert error == pytest.approx(stats.sem(shares))
-    interval = stats.ttest_1samp(shares, 0).confidence_interval(0.95)
-    assert (low, high) == pytest.approx((interval.low, interval.high))
-
-
-def test_ratio_of_one_triangulation_has_no_error():
-    assert np.isnan(ratio_interval(np.array([3]), np.array([9]))[1:]).all()
 
 
 def test_law_is_the_share_beside_the_geometric(study):

@@ -1,0 +1,24 @@
+"""Words and signs that texts of the report share."""
+
+from study.analysis.theorems import LEAST_P_TEXT
+from study.paper.judging import AGREES, CLOSE, DIFFERS, IMPLAUSIBLE, PLAUSIBLE
+from study.statistics.thresholds import CONFIDENCE
+from study.statistics.verdicts import NO, YES
+
+#: The level of intervals, with a space at which no line ends.
+LEVEL = f"{100 * CONFIDENCE:g}\u00a0%"
+#: Theorem 2's premise.
+PREMISE = f"p\u00a0≥\u00a0{LEAST_P_TEXT}"
+
+_SENSES = dict.fromkeys((AGREES, CLOSE, PLAUSIBLE, YES), "good")
+_SENSES |= dict.fromkeys((DIFFERS, IMPLAUSIBLE, NO), "bad")
+
+
+def sense(verdict: str) -> str:
+    """Whether a verdict is ``good`` or ``bad`` news for what is judged; empty if neither."""
+    return _SENSES.get(verdict, "")
+
+
+def every(number: int) -> str:
+    """Word for all of a number of things, at the begin of a sentence."""
+    return "Both" if number == 2 else "All"

@@ -1,0 +1,205 @@
+"""How tables are built: a builder a family of tables, each with the tables that it needs."""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from graphlib import TopologicalSorter
+
+import pandas as pd
+
+from study.analysis.measurements import Measurements
+from study.analysis.table import Declaration, Row, Table, Tables, UnknownNameError
+from study.statistics.groups import Groups, NotEnough
+
+
+@dataclass(frozen=True)
+class Missing:
+    """A statistic that could not be computed, and why."""
+
+    method: str
+    distribution: str
+    what: str
+    why: str
+
+
+@dataclass(frozen=True)
+class Study:
+    """What a builder is given.
+
+    Attributes
+    ----------
+    data : Measurements
+    tables : Tables
+        Those that the builder needs, and no others.
+    missing : list of Missing
+        What could not be computed; the builder adds to it.
+    """
+
+    data: Measurements
+    tables: Tables = field(default_factory=Tables)
+    missing: list[Missing] = field(default_factory=list)
+
+    def lacks(self, method: str, distribution: str, what: str, why: str) -> None:
+        """Say that a statistic could not be computed."""
+        self.missing.append(Missing(method, distribution, what, why))
+
+
+@dataclass(frozen=True)
+class Population:
+    """One method and distribution of a study, for a statistic of the name `what`."""
+
+    study: Study
+    method: str
+    distribution: str
+    what: str
+
+    @property
+    def data(self) -> Measurements:
+        """All that the run has measured."""
+        return self.study.data
+
+    @property
+    def key(self) -> Row:
+        """The columns and values that pick its rows from a frame."""
+        return {"method": self.method, "distribution": self.distribution}
+
+    @property
+    def triangulations(self) -> pd.DataFrame:
+        """The triangulations that succeeded, a row each."""
+        return self.data.triangulations(self.method, self.distribution)
+
+    @property
+    def groups(self) -> Groups:
+        """Their mean LEPP sizes by number of points."""
+        return self.data.groups(self.method, self.distribution)
+
+    def by_size(self) -> Iterable[tuple[int, pd.DataFrame]]:
+        """Give the triangulations of each number of points.
+
+        Raises
+        ------
+        NotEnough
+            If there is none at all.
+        """
+        if self.triangulations.empty:
+            raise NotEnough("no triangulation has succeeded")
+        for size, group in self.triangulations.groupby("n_points", sort=True):
+            yield int(size), group
+
+    def lacks(self, why: str) -> None:
+        """Say that a row cannot be had; the others can. For all of them, raise NotEnough."""
+        self.study.lacks(self.method, self.distribution, self.what, why)
+
+
+@dataclass(frozen=True)
+class Builder:
+    """Makes a family of tables.
+
+    Attributes
+    ----------
+    makes : tuple of Declaration
+        The tables.
+    needs : tuple of Declaration
+        The tables that they are made from, beside what the run has measured.
+    make : callable
+        Takes a `Study`, yields the tables.
+    """
+
+    makes: tuple[Declaration, ...]
+    needs: tuple[Declaration, ...]
+    make: Callable[[Study], Iterable[Table]]
+
+
+RowsOfStudy = Callable[[Study], Iterable[Row]]
+RowsOfPopulation = Callable[[Population], Iterable[Row]]
+Values = Callable[[Measurements], Mapping[str, object]]
+
+
+def builds(
+    *makes: Declaration, needs: tuple[Declaration, ...] = ()
+) -> Callable[[Callable[[Study], Iterable[Table]]], Builder]:
+    """Make a builder of a generator of tables."""
+    return lambda make: Builder(makes, needs, make)
+
+
+def rows_of(
+    made: Declaration, needs: tuple[Declaration, ...] = ()
+) -> Callable[[RowsOfStudy], Builder]:
+    """Make a builder of a generator of one table's rows."""
+
+    def decorate(rows: RowsOfStudy) -> Builder:
+        return Builder((made,), needs, lambda study: [made.table(rows(study))])
+
+    return decorate
+
+
+def rows_by_population(
+    made: Declaration, what: str, note: Values | None = None
+) -> Callable[[RowsOfPopulation], Builder]:
+    """Make a builder of a generator of one table's rows for a method and distribution.
+
+    Parameters
+    ----------
+    made : Declaration
+        With the columns method and distribution, which the generator leaves out.
+    what : str
+        Name of the statistic, for what is missing. The generator calls `Population.lacks` for a row
+        that cannot be had, and raises NotEnough when none (or no more) can.
+    note : callable, optional
+        Takes the measurements and returns what fills the note's fields.
+    """
+
+    def decorate(rows: RowsOfPopulation) -> Builder:
+        def make(study: Study) -> Iterable[Table]:
+            made_rows: list[Row] = []
+            for method, distribution in study.data.populations:
+                population = Population(study, method, distribution, what)
+                try:
+                    made_rows.extend(population.key | row for row in rows(population))
+                except NotEnough as lack:
+                    population.lacks(str(lack))
+            yield made.table(made_rows, **(note(study.data) if note else {}))
+
+        return Builder((made,), (), make)
+
+    return decorate
+
+
+def build(builders: Iterable[Builder], data: Measurements) -> tuple[Tables, list[Missing]]:
+    """Build all tables, each after those that it needs.
+
+    Returns
+    -------
+    tables : Tables
+    missing : list of Missing
+        In the order of the builders.
+
+    Raises
+    ------
+    ValueError
+        If a builder does not make the tables that it declares.
+    UnknownNameError
+        If a table that is needed is built by none.
+    graphlib.CycleError
+        If tables need one another.
+    """
+    builders = list(builders)
+    maker = {made.name: place for place, one in enumerate(builders) for made in one.makes}
+    for need in (need for one in builders for need in one.needs):
+        if need.name not in maker:
+            raise UnknownNameError(f"no builder makes the table {need.name!r}")
+    after = {place: {maker[need.name] for need in one.needs} for place, one in enumerate(builders)}
+    tables = Tables()
+    missing: dict[int, list[Missing]] = {}
+    for place in TopologicalSorter(after).static_order():
+        one = builders[place]
+        study = Study(data, tables.only(one.needs))
+        made = list(one.make(study))
+        if [table.name for table in made] != [declared.name for declared in one.makes]:
+            raise ValueError(f"a builder of {[d.name for d in one.makes]} made others")
+        tables = tables.adding(*made)
+        missing[place] = study.missing
+    ordered = [made.name for one in builders for made in one.makes]
+    return (
+        Tables(tables[name] for name in ordered),
+        [lack for place in sorted(missing) for lack in missing[place]],
+    )

@@ -1,0 +1,163 @@
+"""Made runs of two methods, turned this way and that, and what their reports say."""
+
+from collections.abc import Callable
+from functools import cache
+
+import numpy as np
+import pandas as pd
+from frames import design
+from page_text import PageText, drawn, page_text
+
+from study.results.store import Results
+
+DESIGN = design(
+    methods=("incremental", "delaunay"), distributions=("uniform",), sizes=(1000, 2000, 4000, 8000),
+    repetitions=8,
+)  # fmt: skip
+METHODS = {"incremental": "incremental", "delaunay": "Delaunay"}
+
+Frame = pd.DataFrame
+
+
+def with_means(mean: Callable, spread: Callable = lambda n: 0.004 + 0 * n) -> Callable:
+    """Give every triangulation a mean LEPP size: a function of n, and scores times a spread."""
+
+    def change(results: Frame) -> Frame:
+        n = results["n_points"].to_numpy(float)
+        rng = np.random.default_rng(11)
+        scores = np.tile(rng.permuted(np.linspace(-1.5, 1.5, 8)), len(results) // 8)
+        return results.assign(mean_lepp=mean(n) + spread(n) * scores)
+
+    return change
+
+
+def with_shares(share_c: float) -> Callable:
+    """Give every triangulation about this share of type C neighbours, and A and B half the rest."""
+
+    def change(results: Frame) -> Frame:
+        inside = results["n_interior_longest"]
+        noise = 1 + 0.001 * np.cos(np.arange(len(results)))
+        c = (inside * share_c * noise / 2).astype(int) * 2
+        a = (inside - c) // 3
+        return results.assign(n_type_c=c, n_type_a=a, n_type_b=inside - c - a)
+
+    return change
+
+
+def level(n: np.ndarray) -> np.ndarray:
+    return 3.05 + 0 * n
+
+
+def growing(n: np.ndarray) -> np.ndarray:
+    return 3.0 + 0.02 * np.log2(n / 1000)
+
+
+def falling(n: np.ndarray) -> np.ndarray:
+    return 3.6 - 0.02 * np.log2(n / 1000)
+
+
+def histogram_of(sizes: dict[int, int]) -> Callable:
+    """Give every triangulation the same histogram of LEPP sizes, n / 1000 times, and a little."""
+
+    def change(histograms: Frame) -> Frame:
+        keys = histograms[["method", "distribution", "n_points", "replicate"]].drop_duplicates()
+        rows = [
+            {**key, "lepp_size": size, "count": count * key["n_points"] // 1000 + key["replicate"]}
+            for key in keys.to_dict("records")
+            for size, count in sizes.items()
+        ]
+        return pd.DataFrame(rows)
+
+    return change
+
+
+@cache
+def run(name: str) -> Results:
+    """One of the made runs, by what is special about it."""
+    results, histograms, regions = CHANGES[name]
+    return drawn(DESIGN, results=results, histograms=histograms, regions=regions)
+
+
+@cache
+def page(name: str) -> PageText:
+    """What the report of a made run says."""
+    return page_text(run(name))
+
+
+def geometric(histograms: Frame) -> Frame:
+    """Draw every histogram from a geometric law, of far more triangles than there are."""
+    keys = histograms[["method", "distribution", "n_points", "replicate"]].drop_duplicates()
+    sizes = np.arange(2, 10)
+    law = 0.5 ** (sizes - 1)
+    law[-1] *= 2  # with all that are longer
+    rows = []
+    for place, key in enumerate(keys.to_dict("records")):
+        counts = np.random.default_rng(place).multinomial(2_000_000, law)
+        drawn_sizes = zip(sizes.tolist(), counts.tolist(), strict=True)
+        rows += [{**key, "lepp_size": s, "count": c} for s, c in drawn_sizes if c]
+    return pd.DataFrame(rows)
+
+
+def same(frame: Frame) -> Frame:
+    return frame
+
+
+def out_of_bounds(results: Frame) -> Frame:
+    first = (results["replicate"] == 0) & (results["n_points"] == 2000)
+    return results.assign(mean_lepp=results["mean_lepp"].where(~first, 4.5))
+
+
+def moments(**factors: float) -> Callable:
+    """Set the moments to Theorem 1's of the triangulation's own p, times factors."""
+
+    def change(results: Frame) -> Frame:
+        p = results["n_type_c"] / results["n_interior_longest"]
+        wanted = {
+            "mean_lepp": 1 / p + 1,
+            "sd_lepp": np.sqrt(1 - p) / p,
+            "skewness_lepp": (2 - p) / np.sqrt(1 - p),
+            "kurtosis_lepp": 6 + p * p / (1 - p),
+        }
+        return results.assign(**{k: v * factors.get(k, 1.0) for k, v in wanted.items()})
+
+    return change
+
+
+def poor_points(results: Frame) -> Frame:
+    low = results["replicate"] % 2 == 0
+    return results.assign(**{c: results[c].where(~low, 0.001) for c in ("runs_p_x", "ks_p_y")})
+
+
+def large_regions(regions: Frame) -> Frame:
+    return regions.assign(region_size=regions["region_size"] * 3)
+
+
+LONG = {1: 10, 2: 300, 3: 300, 4: 300, 5: 200, 9: 250, 12: 160}
+UNEVEN = {1: 10, 2: 600, 3: 800, 4: 150, 5: 250, 6: 200}
+FALLING = {1: 10, 2: 900, 3: 300, 4: 160, 5: 100, 6: 80, 9: 400}
+SHORT = {1: 10, 2: 1200, 3: 600, 4: 150, 5: 30, 6: 6}
+
+CHANGES: dict[str, tuple[Callable, Callable, Callable]] = {
+    "drawn": (same, same, same),
+    "level": (with_means(level), same, same),
+    "growing": (with_means(growing), same, same),
+    "falling": (with_means(falling), same, large_regions),
+    "narrowing": (with_means(growing, lambda n: 40 / n), same, same),
+    "widening": (with_means(level, lambda n: n / 1e6), same, same),
+    "low p": (with_shares(0.30), histogram_of(LONG), same),
+    "high p": (with_shares(0.50), histogram_of(SHORT), same),
+    "rare long paths": (with_shares(0.50), histogram_of(SHORT | {9: 8}), same),
+    "constant rates": (same, geometric, same),
+    "out of bounds": (out_of_bounds, same, same),
+    "Theorem 1": (moments(mean_lepp=1.001, sd_lepp=0.999), same, same),
+    "above Theorem 1": (
+        moments(mean_lepp=1.2, sd_lepp=1.3, skewness_lepp=1.1, kurtosis_lepp=1.1), same, same,
+    ),
+    "mixed Theorem 1": (moments(mean_lepp=1.05, sd_lepp=0.9), same, same),
+    "uneven rates": (same, histogram_of(UNEVEN), same),
+    "falling rates": (same, histogram_of(FALLING), same),
+    "straight": (with_means(lambda n: 3.0 + n / 1e5 + 5e-4 * np.cos(n)), same, same),
+    "bent": (with_means(lambda n: 3.1 - 0.05 * np.cos(n / 1500)), same, same),
+    "near 4": (with_means(lambda n: 3.99 + 0 * n, lambda n: 0.05 + 0 * n), same, same),
+    "poor points": (poor_points, same, same),
+}  # fmt: skip

@@ -1,0 +1,211 @@
+"""What the report says of methods, agreement and completeness, counted anew; and the opposite."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pandas as pd
+import pytest
+from frames import design, failed
+from made_runs import DESIGN, METHODS, page, run
+from page_text import PageText, drawn, page_text
+from scipy import stats
+
+from reports.study_page import sections
+from study.paper import published
+
+ONE = DESIGN.model_copy(update={"methods": ("incremental",)})
+
+
+def by_method(name, column, n=8000):
+    results = run(name).results
+    results = results[results["n_points"] == n]
+    return [results.loc[results["method"] == m, column].to_numpy(float) for m in METHODS]
+
+
+@pytest.mark.parametrize("name", ["drawn", "high p"])
+def test_methods_on_the_same_points(name):
+    means = [v.mean() for v in by_method(name, "mean_lepp")]
+    shares = [
+        (c / i).mean()
+        for c, i in zip(
+            by_method(name, "n_type_c"), by_method(name, "n_interior_longest"), strict=True
+        )
+    ]
+    said = page(name).prose("same-points")
+    assert (
+        f"On the same 8,000 uniform points the mean LEPP sizes are {means[0]:.4f} (incremental) "
+        f"and {means[1]:.4f} (Delaunay), and the shares p of type C neighbours {shares[0]:.4f} "
+        f"(incremental) and {shares[1]:.4f} (Delaunay)."
+    ) in said
+    if name == "drawn":
+        assert shares[1] < 1 / 3 < shares[0]
+        assert "That of the Delaunay triangulations is below the 1/3" in said
+    else:
+        assert min(shares) > 1 / 3
+        assert "above the 1/3 that Theorem 2 supposes" in said
+        assert "below" not in said
+
+
+def one_grows(results):
+    factor = np.where(results["method"] == "incremental", 0.05, 0.0)
+    return results.assign(mean_lepp=3 + factor * np.log2(results["n_points"] / 1000)).assign(
+        mean_lepp=lambda f: f["mean_lepp"] + 0.001 * np.cos(np.arange(len(f)))
+    )
+
+
+def test_growth_of_methods():
+    said = page_text(drawn(DESIGN, results=one_grows))
+    text = said.prose("same-points")
+    assert "With each doubling of the points the mean changes by 0.050 (incremental) and" in text
+    assert text.endswith("the growth differs.")
+    assert page("drawn").prose("same-points").endswith("the growth is not shown to differ.")
+    assert said.finding("figure-methods").startswith(
+        "From few points to many, incremental means go from 3.0"
+    )
+    ends = [[v.mean() for v in by_method("drawn", "mean_lepp", n)] for n in (1000, 8000)]
+    assert page("drawn").finding("figure-methods") == (
+        f"From few points to many, incremental means go from {ends[0][0]:.4f} at 1,000 to "
+        f"{ends[1][0]:.4f} at 8,000 and Delaunay means go from {ends[0][1]:.4f} at 1,000 to "
+        f"{ends[1][1]:.4f} at 8,000."
+    )
+
+
+@pytest.mark.parametrize("name", ["drawn", "high p"])
+def test_paths_of_methods(name):
+    rates, tails = [], []
+    for method, word in METHODS.items():
+        frame = run(name).histograms
+        frame = frame[frame["method"] == method]
+        counts = np.bincount(frame["lepp_size"], frame["count"])
+        reached = counts[::-1].cumsum()[::-1]
+        two, five = (100 * counts[k] / reached[k] for k in (2, 5))
+        rates.append(
+            f"{two:.1f} % of the {word} paths that reach size 2 end there, and {five:.1f} % of "
+            "those that reach size 5"
+        )
+        tails.append(
+            f"{100 * counts[8:].sum() / counts.sum():.2f} % of the {word} triangles have a LEPP of "
+            f"8 or more, and the longest is {len(counts) - 1}"
+        )
+    assert page(name).finding("figure-rates") == f"{'; '.join(rates)}."
+    assert page(name).finding("figure-sizes") == f"{'; '.join(tails)}."
+
+
+@cache
+def paper_run(shift=0.0, factor=1.0) -> PageText:
+    """Groups with the published means and standard deviations, moved by standard errors."""
+    sizes = published.sizes()
+    asked = design(distributions=("uniform",), sizes=sizes, repetitions=published.REPETITIONS)
+    small = drawn(asked.model_copy(update={"sizes": (1000,)}))
+    scores = stats.zscore(stats.norm.ppf((np.arange(40) + 0.5) / 40), ddof=1)
+    rows = []
+    for triangles, largest, mean, sd in published.table_4():
+        middle = mean.value + shift * sd.value / np.sqrt(20)
+        group = small.results.assign(
+            n_points=mean.n_points, mean_lepp=middle + factor * sd.value * scores
+        )
+        group["n_triangles"] = round(triangles.value) + np.repeat([-3, 3], 20)
+        group["max_lepp"] = np.repeat([int(largest.value) - 1, int(largest.value) + 1], 20)
+        rows.append(group)
+    return page_text(replace(small, results=pd.concat(rows, ignore_index=True), design=asked))
+
+
+def test_scoreboard_counts_what_agrees():
+    right, wrong = paper_run(), paper_run(shift=2.5)
+    board = right.evidence.tables["reproduction"].frame["verdict"].value_counts()
+    judged = sum(int(board.get(v, 0)) for v in ("agrees", "close", "differs"))
+    said = right.prose("scoreboard")
+    assert said.startswith("The paper prints 146 numbers in its seven tables.")
+    assert (
+        f"{judged} of them can be held against ours by their standard errors: {board['agrees']} "
+        f"within 2 (agreement), {board.get('close', 0)} within 3 (close) and "
+        f"{board.get('differs', 0)} beyond (different)."
+    ) in said
+    assert "1 number must be a misprint: 7.535e+05 (linear, b, as printed)." in said
+    means = right.finding("figure-means")
+    assert means.startswith("20 of 20 group means lie within 2 standard errors")
+    assert "0 of 20 group means lie within 2 standard errors" in wrong.finding("figure-means")
+    assert "and 20 within 3" in wrong.finding("figure-means")
+    far = paper_run(shift=6.0)
+    assert "and 0 within 3; the largest" in far.finding("figure-means")
+    value, context = right.tiles()["Published numbers met"]
+    agreeing = int(board["agrees"] + board.get("close", 0))
+    assert value == f"{agreeing} of {judged}"
+    assert context == "within 3 standard errors"
+
+
+def test_table_4_as_a_whole():
+    assert (
+        paper_run()
+        .prose("table-4")
+        .startswith(
+            "Over all groups together, the mean LEPP size agrees (χ² = 0.0 on 20 degrees of freedom"
+        )
+    )
+    moved = paper_run(shift=2.5).prose("table-4")
+    z = 2.5  # of the difference, as both have the published standard deviations
+    chi2 = float(moved.split("χ² = ")[1].split(" ")[0])
+    assert abs(chi2 - 20 * z * z) < 2
+    assert "the mean LEPP size differs" in moved
+    assert "its standard deviation agrees" in moved
+    spread = paper_run(factor=2.0).prose("table-4")
+    assert "its standard deviation differs" in spread
+
+
+def test_other_methods_are_no_failure_to_reproduce():
+    note = "that they differ is no failure to reproduce"
+    assert note in page("drawn").prose("scoreboard", "delaunay/uniform")
+    assert note not in page("drawn").prose("scoreboard", "incremental/uniform")
+    assert "Published numbers met" not in page("drawn").tiles("delaunay/uniform")
+
+
+def test_completeness():
+    assert page_text(drawn(ONE)).prose("completeness") == (
+        "All 32 triangulations were made; none failed."
+    )
+
+    def lose(results):
+        rows = results.index[(results["n_points"] == 2000) & (results["replicate"] < 2)]
+        return failed(results, rows).drop(index=results.index[-3:])
+
+    said = page_text(drawn(ONE, results=lose))
+    assert said.prose("completeness") == (
+        "Of 32 triangulations, 27 were made, 2 failed and 3 have not been run."
+    )
+    alarms = sections.alarms(said.evidence)
+    assert any("2 of 32 tasks failed, the first of them with 2000 points" in a for a in alarms)
+    assert any("3 of 32 tasks have not been run yet" in a for a in alarms)
+    description = sections.description(said.evidence)
+    assert description.startswith("27 of 32 random triangulations of 1,000 to 8,000 points, ")
+    assert sections.description(page_text(drawn(ONE)).evidence).startswith(
+        "32 random triangulations of 1,000 to 8,000 points, "
+    )
+    assert not [a for a in sections.alarms(page("drawn").evidence) if "tasks" in a]
+
+
+def test_points_left_out_are_counted():
+    def repeat(results):
+        return results.assign(n_repeated=(results.index == 0).astype(int))
+
+    said = page_text(drawn(ONE, results=repeat)).prose("completeness")
+    assert said.endswith("1 point that repeated another of the same set was left out.")
+
+
+def test_statements_are_counted():
+    for name in ("drawn", "growing"):
+        rows = page(name).evidence.tables["statements"].frame.query("method == 'incremental'")
+        counts = rows["holds"].value_counts()
+        said = page(name).prose("statements")
+        assert said.startswith(f"Of {len(rows)} statements of the paper, for uniform points and")
+        for verdict, word in (("yes", "hold"), ("no", "do not"), ("not tested", "not tested")):
+            assert (f"{counts.get(verdict, 0)} {word}" in said) == (verdict in counts)
+
+
+def test_worst_case_and_points():
+    said = page("drawn")
+    assert "all have the mean (n + 1) / 2 and the maximum n exactly" in said.finding("figure-2")
+    assert said.finding("figure-3") == (
+        "400 points of each distribution: the uniform ones fill the unit square."
+    )
+    assert "from 12 at the narrow end to 1." in said.finding("figure-2")

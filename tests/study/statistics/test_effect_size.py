@@ -1,0 +1,20 @@
+import pytest
+from scipy import stats
+
+from study.statistics.effect_size import population_share
+
+
+@pytest.mark.parametrize("f", [1.5, 33.34, 3000.0, 1e6])
+def test_interval_inverts_the_noncentral_f_distribution(f):
+    df1, df2, total = 19, 780, 800
+    low, high = population_share(f, df1, df2, total)
+    for share, level in ((low, 0.975), (high, 0.025)):
+        if share > 0:
+            noncentrality = share * total / (1 - share)
+            assert stats.ncf.cdf(f, df1, df2, noncentrality) == pytest.approx(level, rel=1e-6)
+    assert low < f * df1 / (f * df1 + df2)
+    assert low < high
+
+
+def test_no_effect_has_an_interval_from_zero():
+    assert population_share(0.5, 19, 780, 800)[0] == 0
