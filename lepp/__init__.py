@@ -1,7 +1,7 @@
 """The mathematics: triangulations and their longest-edge propagation paths (LEPP)."""
 
 from lepp import theory
-from lepp.errors import InputError, MeshError, MeshProblem
+from lepp.errors import InputError, MeshError, MeshProblem, Remedy
 from lepp.geometry.lengths import NEARLY_EQUAL
 from lepp.histogram import LeppCounts
 from lepp.jit.ahead import compile_kernels
@@ -24,6 +24,7 @@ __all__ = [
     "MeshError",
     "MeshProblem",
     "Method",
+    "Remedy",
     "Triangulation",
     "compile_kernels",
     "lepp_paths",

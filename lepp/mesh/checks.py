@@ -4,16 +4,48 @@ All that is wrong is found and said at once. What cannot change a path is no pro
 no triangle uses, the order of a triangle's vertices, pieces that meet in a point.
 """
 
+from dataclasses import dataclass
 from typing import Literal, get_args
 
 import numpy as np
 
-from lepp.errors import InputError, MeshError, MeshProblem, listed
+from lepp.errors import InputError, MeshError, MeshProblem, Remedy, listed
 from lepp.geometry.predicates import orientations
 from lepp.jit.memory import for_kernels
 from lepp.mesh.adjacency import FOLDED, NON_MANIFOLD, TWINNED, link_triangles
 
 RepeatedPoints = Literal["refuse", "merge", "keep"]
+
+
+@dataclass(frozen=True, eq=False)
+class SoundMesh:
+    """Triangles on which paths can be followed.
+
+    Attributes
+    ----------
+    triangles : (m, 3) int32 ndarray
+        Counter-clockwise in the plane, as given in space.
+    neighbors : (m, 3) int32 ndarray
+    repeated : (k, 2) int32 ndarray
+        The points that were merged, and those that they repeat.
+    clockwise : (m,) bool ndarray
+        The triangles of the plane that were given clockwise.
+    """
+
+    triangles: np.ndarray
+    neighbors: np.ndarray
+    repeated: np.ndarray
+    clockwise: np.ndarray
+
+
+def refuse_masked(array: np.ndarray, what: str) -> None:
+    """Raise an InputError if some of an array is masked: NumPy would drop the mask in silence."""
+    if np.ma.is_masked(array):
+        mask = np.atleast_1d(np.ma.getmaskarray(array))
+        rows = np.flatnonzero(mask.reshape(len(mask), -1).any(axis=1))
+        raise InputError(
+            f"{what} {listed(rows)} are masked: leave them out, or give an array without a mask."
+        )
 
 
 def check_indices(triangles: np.ndarray, n_points: int) -> np.ndarray:
@@ -22,11 +54,15 @@ def check_indices(triangles: np.ndarray, n_points: int) -> np.ndarray:
     Raises
     ------
     InputError
-        Wrong shape or dtype, no triangles.
+        Wrong shape or dtype, a mask, no triangles.
     MeshError
         Indices of points that do not exist.
     """
-    array = np.asarray(triangles)
+    refuse_masked(triangles, "Triangles")
+    try:
+        array = np.asarray(triangles)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"The triangles do not form an array ({error}).") from None
     if array.dtype.kind not in "iu" or array.ndim != 2 or array.shape[1] != 3:
         raise InputError(
             f"The triangles are an array of shape {array.shape} and dtype {array.dtype}: "
@@ -36,34 +72,48 @@ def check_indices(triangles: np.ndarray, n_points: int) -> np.ndarray:
         raise InputError("There are no triangles: give at least one.")
     bad = np.flatnonzero(((array < 0) | (array >= n_points)).any(axis=1))
     if len(bad):
-        what = f"Triangles {listed(bad)} have vertices that are not among the {n_points} points"
-        raise MeshError(
-            [MeshProblem("indices", bad, what, f"indices run from 0 to {n_points - 1}")]
+        what = (
+            f"Triangles {listed(bad)} have vertices that are not among the {n_points} points, "
+            f"whose indices run from 0 to {n_points - 1}"
         )
+        raise MeshError([MeshProblem("indices", bad, what, Remedy.CORRECT_INDICES)])
     return for_kernels(array, np.int32)
+
+
+def check_finite(points: np.ndarray, triangles: np.ndarray) -> None:
+    """Refuse triangles whose points have coordinates that are not finite.
+
+    Raises
+    ------
+    MeshError
+        Where such points are in use; others change no path.
+    """
+    finite = np.isfinite(points).all(axis=1)
+    if finite.all():
+        return
+    bad = np.unique(triangles[~finite[triangles]])
+    if len(bad):
+        of_them = np.flatnonzero(~finite[triangles].all(axis=1))
+        what = (
+            f"Points {listed(bad)} have coordinates that are not finite, and are used by triangles "
+            f"{listed(of_them)}"
+        )
+        raise MeshError([MeshProblem("infinite points", bad, what, Remedy.GIVE_COORDINATES)])
 
 
 def sound_mesh(
     points: np.ndarray, triangles: np.ndarray, repeated_points: RepeatedPoints
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+) -> SoundMesh:
     """Orient and link triangles, or say everything that is wrong with them.
 
     Parameters
     ----------
     points : (n, 2) or (n, 3) float64 ndarray
-        Finite.
+        Finite where they are in use.
     triangles : (m, 3) int32 ndarray
         Indices of points.
     repeated_points : {"refuse", "merge", "keep"}
         What to do about points with the coordinates of another.
-
-    Returns
-    -------
-    triangles : (m, 3) int32 ndarray
-        Counter-clockwise in the plane, as given in space.
-    neighbors : (m, 3) int32 ndarray
-    repeated : (k, 2) int32 ndarray
-        The points that were merged, and those that they repeat.
 
     Raises
     ------
@@ -76,27 +126,37 @@ def sound_mesh(
         known = ", ".join(map(repr, get_args(RepeatedPoints)))
         raise InputError(f"repeated_points is {repeated_points!r}: use one of {known}.")
     problems = []
-    repeated = np.empty((0, 2), np.int32)
-    if repeated_points != "keep":
-        repeated = _repeated_points(points, triangles)
-    if len(repeated) and repeated_points == "refuse":
-        problems.append(_not_joined(repeated))
-    elif len(repeated):
+    repeated = _repeated_points(points, triangles)
+    merged = triangles
+    if len(repeated):
         first = np.arange(len(points), dtype=np.int32)
         first[repeated[:, 0]] = repeated[:, 1]
-        triangles = first[triangles]
-    a, b, c = triangles.T
-    collapsed = (a == b) | (b == c) | (c == a)
+        merged = first[triangles]
+        if repeated_points == "refuse":
+            problems.append(_not_joined(repeated))
+    on_seam = _is_collapsed(merged) & ~_is_collapsed(triangles)
+    if repeated_points == "merge":
+        triangles = merged
+        on_seam[:] = False
+    else:
+        repeated = repeated[:0]
+    collapsed = _is_collapsed(triangles)
     flat, clockwise = _turns(points, triangles)
     good = ~(flat | collapsed)
-    problems += _areas(collapsed, flat & ~collapsed)
+    problems += _areas(collapsed, on_seam, flat & ~collapsed & ~on_seam)
     if clockwise.any():
         triangles = np.where(clockwise[:, None], triangles[:, [0, 2, 1]], triangles)
     neighbors, links = _linked(points, triangles, good, clockwise)
     problems += links
     if problems:
         raise MeshError(problems)
-    return triangles, neighbors, repeated
+    return SoundMesh(triangles, neighbors, repeated, clockwise)
+
+
+def _is_collapsed(triangles: np.ndarray) -> np.ndarray:
+    """Return which triangles have the same vertex twice."""
+    a, b, c = triangles.T
+    return (a == b) | (b == c) | (c == a)
 
 
 def _repeated_points(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
@@ -135,7 +195,7 @@ def _linked(
         copies = ids[_copies(triangles[ids])]
         if len(copies):
             what = f"Triangles {listed(copies)} have the same three vertices as an earlier one"
-            problems.append(MeshProblem("copies", copies, what, "leave them out"))
+            problems.append(MeshProblem("copies", copies, what, Remedy.LEAVE_OUT))
             ids = np.setdiff1d(ids, copies)
             neighbors, flags = _link(points, triangles, ids)
     bad = ids[(flags & NON_MANIFOLD) > 0]
@@ -144,8 +204,7 @@ def _linked(
             f"Triangles {listed(bad)} share an edge with two or more others, so that a path across "
             "it has no single next triangle"
         )
-        remedy = "take triangles away until each edge has at most two, or split the mesh there"
-        problems.append(MeshProblem("non-manifold edges", bad, what, remedy))
+        problems.append(MeshProblem("non-manifold edges", bad, what, Remedy.SPLIT_EDGES))
     if points.shape[1] == 2:
         problems += _folds(ids[(flags & FOLDED) > 0], clockwise)
     return neighbors, problems
@@ -174,24 +233,22 @@ def _not_joined(repeated: np.ndarray) -> MeshProblem:
         f"Points {listed(points)} have exactly the coordinates of another point (the first those "
         f"of point {repeated[0, 1]}), so that the triangles that meet there are not joined"
     )
-    remedy = 'give repeated_points="merge" to join them, or "keep" if the mesh is cut there'
-    return MeshProblem("repeated points", points, what, remedy)
+    return MeshProblem("repeated points", points, what, Remedy.MERGE_OR_KEEP)
 
 
-def _areas(collapsed: np.ndarray, flat: np.ndarray) -> list[MeshProblem]:
+def _areas(collapsed: np.ndarray, on_seam: np.ndarray, flat: np.ndarray) -> list[MeshProblem]:
     problems = []
-    if collapsed.any():
-        ids = np.flatnonzero(collapsed)
-        what = f"Triangles {listed(ids)} have the same point twice, so no area"
-        problems.append(MeshProblem("collapsed triangles", ids, what, "leave them out"))
-    if flat.any():
-        ids = np.flatnonzero(flat)
-        what = f"Triangles {listed(ids)} have no area: their vertices lie on one line"
-        remedy = (
-            "move a vertex; leaving them out would cut the mesh, as their neighbours on the long "
-            "side and on the two short sides do not meet"
-        )
-        problems.append(MeshProblem("flat triangles", ids, what, remedy))
+    for kind, chosen, why, remedy in (
+        ("collapsed triangles", collapsed, "have the same point twice, so no area",
+         Remedy.LEAVE_OUT),
+        ("seam triangles", on_seam, "have two points at the same place, so no area",
+         Remedy.MERGE_AND_LEAVE_OUT),
+        ("flat triangles", flat, "have no area: their vertices lie on one line",
+         Remedy.MOVE_VERTEX),
+    ):  # fmt: skip
+        ids = np.flatnonzero(chosen)
+        if len(ids):
+            problems.append(MeshProblem(kind, ids, f"Triangles {listed(ids)} {why}", remedy))
     return problems
 
 
@@ -206,6 +263,6 @@ def _folds(folded: np.ndarray, clockwise: np.ndarray) -> list[MeshProblem]:
             f"Triangles {listed(fewer)} are inverted: they turn the other way round than the "
             "rest and lie over their neighbours"
         )
-        return [MeshProblem("inverted triangles", fewer, what, "move their vertices back")]
+        return [MeshProblem("inverted triangles", fewer, what, Remedy.MOVE_BACK)]
     what = f"Triangles {listed(folded)} lie over a neighbour, on the same side of their common edge"
-    return [MeshProblem("folded triangles", folded, what, "unfold the mesh there")]
+    return [MeshProblem("folded triangles", folded, what, Remedy.UNFOLD)]

@@ -9,7 +9,14 @@ import numpy as np
 from lepp.errors import InputError, listed
 from lepp.geometry.lengths import edge_ranks
 from lepp.jit.memory import for_kernels, read_only
-from lepp.mesh.checks import RepeatedPoints, check_indices, sound_mesh
+from lepp.mesh.checks import (
+    RepeatedPoints,
+    SoundMesh,
+    check_finite,
+    check_indices,
+    refuse_masked,
+    sound_mesh,
+)
 from lepp.mesh.conversion import mesh_arrays
 
 MAX_POINTS = (2**31 - 1) // 8
@@ -86,7 +93,8 @@ class Triangulation:
         Parameters
         ----------
         points : (n, 2) or (n, 3) array_like of float
-            Finite coordinates, of a mesh in the plane or of a surface in space.
+            Coordinates, of a mesh in the plane or of a surface in space; finite where they are in
+            use.
         triangles : (m, 3) array_like of int
             Vertices of each triangle, in any order: in the plane all are made to turn
             counter-clockwise.
@@ -98,19 +106,18 @@ class Triangulation:
         Raises
         ------
         MeshError
-            All that is wrong: indices out of range, repeated points, triangles that have no area,
-            repeat another or lie over a neighbour, edges with more than two triangles.
+            All that is wrong: indices out of range, coordinates that are not finite, repeated
+            points, triangles that have no area, repeat another or lie over a neighbour, edges with
+            more than two triangles.
         InputError
-            Arrays of another shape or dtype, or coordinates that are not finite.
+            Arrays of another shape or dtype, or with a mask.
 
         Notes
         -----
         Points that no triangle uses, holes and several pieces are all right. So are, in space,
         neighbours that are oriented differently: a path goes by lengths and neighbours only.
         """
-        points = check_points(points, dimensions=(2, 3))
-        triangles = check_indices(triangles, len(points))
-        return cls(points, *sound_mesh(points, triangles, repeated_points))
+        return linked(points, triangles, repeated_points)[0]
 
     @classmethod
     def from_object(
@@ -125,9 +132,12 @@ class Triangulation:
 
         Parameters
         ----------
-        mesh : scipy.spatial.Delaunay, matplotlib.tri.Triangulation or meshio.Mesh
-            Triangles of several blocks are joined, in order; masked ones are left out; of curved
-            ones the corners are taken. A third coordinate that is the same everywhere is dropped.
+        mesh : object
+            A Triangulation, scipy.spatial.Delaunay, matplotlib.tri.Triangulation, meshio.Mesh,
+            pyvista.UnstructuredGrid or PolyData, trimesh.Trimesh, skfem.MeshTri, a dictionary of
+            the package triangle, or a pair of points and triangles. Triangles of several blocks
+            are joined, in order; those that matplotlib masks are left out; of curved ones the
+            corners are taken. A third coordinate that is the same everywhere is dropped.
         split_quads : bool
             Split each quad in two, along its shorter diagonal that lies inside.
         ignore_volumes : bool
@@ -140,23 +150,41 @@ class Triangulation:
         MeshError
             As `from_arrays`, and cells that are not triangles.
         InputError
-            An object of another kind, or without triangles.
+            An object of another kind, without triangles, or with arrays that are masked.
         """
         given = mesh_arrays(mesh, split_quads=split_quads, ignore_volumes=ignore_volumes)
         return cls.from_arrays(given.points, given.triangles, repeated_points=repeated_points)
 
 
-def check_points(points: np.ndarray, dimensions: Sequence[int] = (2,)) -> np.ndarray:
+def linked(
+    points: np.ndarray, triangles: np.ndarray, repeated_points: RepeatedPoints
+) -> tuple[Triangulation, SoundMesh]:
+    """Build the neighbours of triangles; return also what was found on the way.
+
+    Parameters, errors : as `Triangulation.from_arrays`.
+    """
+    points = check_points(points, dimensions=(2, 3), all_finite=False)
+    triangles = check_indices(triangles, len(points))
+    check_finite(points, triangles)
+    sound = sound_mesh(points, triangles, repeated_points)
+    return Triangulation(points, sound.triangles, sound.neighbors, sound.repeated), sound
+
+
+def check_points(
+    points: np.ndarray, dimensions: Sequence[int] = (2,), *, all_finite: bool = True
+) -> np.ndarray:
     """Return points as a float64 array for kernels, or say why they cannot be used.
 
     Raises
     ------
     InputError
-        Wrong shape or dtype, fewer than three points, or coordinates that are not finite.
+        Wrong shape or dtype, a mask, fewer than three points, or, if all are to be, coordinates
+        that are not finite.
     """
+    refuse_masked(points, "Points")
     try:
         array = np.asarray(points)
-    except ValueError as error:
+    except (TypeError, ValueError) as error:
         raise InputError(f"The points do not form an array ({error}).") from None
     wanted = " or ".join(f"(n, {d})" for d in dimensions)
     if array.dtype.kind not in "fiu":
@@ -170,7 +198,7 @@ def check_points(points: np.ndarray, dimensions: Sequence[int] = (2,)) -> np.nda
     if len(array) > MAX_POINTS:
         raise InputError(f"{len(array)} points are more than one mesh can hold ({MAX_POINTS}).")
     array = for_kernels(array, np.float64)
-    if not np.isfinite(array).all():
+    if all_finite and not np.isfinite(array).all():
         bad = np.flatnonzero(~np.isfinite(array).all(axis=1))
         raise InputError(f"Points {listed(bad)} have coordinates that are not finite: remove them.")
     return array

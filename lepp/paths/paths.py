@@ -73,8 +73,10 @@ def lepp_sizes(triangulation: Triangulation, *, equal_within: float = 0.0) -> np
     Raises
     ------
     InputError
-        If `equal_within` is not a share, at least 0 and below 1.
+        If `equal_within` is not a share, at least 0 and below 1, or something else than a
+        Triangulation is given.
     """
+    _check_type(triangulation)
     neighbors = for_kernels(triangulation.neighbors, np.int32)
     ranks = _ranks(triangulation, equal_within)
     if _n_equal(ranks):
@@ -102,6 +104,7 @@ def lepp_paths(triangulation: Triangulation, *, equal_within: float = 0.0) -> Le
     InputError
         As `lepp_sizes`.
     """
+    _check_type(triangulation)
     triangles = for_kernels(triangulation.triangles, np.int32)
     neighbors = for_kernels(triangulation.neighbors, np.int32)
     ranks = _ranks(triangulation, equal_within)
@@ -125,6 +128,14 @@ def lepp_paths(triangulation: Triangulation, *, equal_within: float = 0.0) -> Le
         n_equal,
         int(np.count_nonzero(ranks & NEARLY_EQUAL_BIT)),
     )
+
+
+def _check_type(triangulation: object) -> None:
+    if not isinstance(triangulation, Triangulation):
+        raise InputError(
+            f"A {type(triangulation).__name__} is no lepp.Triangulation: make one of it by "
+            "lepp.Triangulation.from_object, or from_arrays(points, triangles)."
+        )
 
 
 def _ranks(triangulation: Triangulation, equal_within: float) -> np.ndarray:

@@ -1,38 +1,67 @@
-"""The command ``lepp-study mesh``: a file in, answers out."""
+"""The command ``lepp-study mesh``: a file in, its survey out."""
 
 import json
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 import lepp
+from reports.mesh_page import findings
 from reports.mesh_page.page import render
-from reports.mesh_page.terminal import in_options, print_survey
+from reports.mesh_page.remedies import refusal
+from reports.mesh_page.terminal import print_survey
+from study.meshes.as_json import as_json
 from study.meshes.read import ReadOptions, read_mesh
-from study.meshes.survey import Survey, as_json, survey
+from study.meshes.survey import Survey, survey
 from study.meshes.write import check_not_same, check_output, write_mesh
 from study.results.files import write_text
 
-_STANDARD_OUTPUT = Path("-")
+
+@dataclass(frozen=True)
+class Outputs:
+    """What is to be made of a survey.
+
+    Attributes
+    ----------
+    print_json : bool
+        Print JSON, not text.
+    html, json_file, mesh : Path, optional
+        Files to write: a page, JSON, and the mesh with its paths.
+    """
+
+    print_json: bool = False
+    html: Path | None = None
+    json_file: Path | None = None
+    mesh: Path | None = None
+
+    def check(self, file: Path) -> None:
+        """Refuse outputs that could not be written before any work is done.
+
+        Raises
+        ------
+        lepp.InputError
+        """
+        names = [path for path in (self.html, self.json_file, self.mesh) if path is not None]
+        for path in names:
+            check_not_same(path, file)
+        if len({path.resolve() for path in names}) < len(names):
+            raise lepp.InputError("Two outputs have the same name: give each its own.")
+        if self.mesh is not None:
+            check_output(self.mesh, file)
 
 
-def answer(
-    file: Path,
-    options: ReadOptions,
-    *,
-    html: Path | None = None,
-    json_file: Path | None = None,
-    output: Path | None = None,
+def survey_file(
+    file: Path, options: ReadOptions, outputs: Outputs, *, equal_within: float = 0.0
 ) -> list[str]:
-    """Survey the mesh in a file and write the answers that are asked for.
-
-    The text goes to the standard output, unless JSON does.
+    """Survey the mesh in a file, print what its paths say, and write what is asked for.
 
     Parameters
     ----------
     file : Path
     options : ReadOptions
-    html, json_file, output : Path, optional
-        Files to write; ``-`` as `json_file` is the standard output.
+    outputs : Outputs
+    equal_within : float
+        As for `lepp.lepp_paths`.
 
     Returns
     -------
@@ -44,41 +73,30 @@ def answer(
     lepp.InputError
         A mesh that cannot be surveyed, or an output that cannot be written.
     """
-    _check_outputs(file, html, json_file, output)
+    outputs.check(file)
     try:
-        found = survey(read_mesh(file, options))
+        surveyed = survey(read_mesh(file, options), equal_within=equal_within)
     except lepp.MeshError as error:
-        raise in_options(error) from None
+        raise refusal(error, options) from None
     written = []
-    if json_file not in (None, _STANDARD_OUTPUT):
-        write_text(json_file, _json_text(found))
-        written.append(f"JSON: {json_file}")
-    if output is not None:
-        write_mesh(found, output)
-        written.append(f"Mesh: {output}")
-    if html is not None:
-        write_text(html, render(found))
-        written.append(f"Page: {html}")
-    if json_file == _STANDARD_OUTPUT:  # last: a reader of a pipe may go away
-        sys.stdout.write(_json_text(found))
+    if outputs.json_file is not None:
+        write_text(outputs.json_file, _json_text(surveyed))
+        written.append(f"JSON: {outputs.json_file}")
+    if outputs.mesh is not None:
+        write_mesh(surveyed, outputs.mesh)
+        written.append(f"Mesh: {outputs.mesh}")
+    if outputs.html is not None:
+        write_text(outputs.html, render(surveyed))
+        written.append(f"Page: {outputs.html}")
+    if outputs.print_json:  # last: a reader of a pipe may go away
+        sys.stdout.write(_json_text(surveyed))
     else:
-        print_survey(found)
+        print_survey(surveyed)
     return written
 
 
-def _check_outputs(
-    file: Path, html: Path | None, json_file: Path | None, output: Path | None
-) -> None:
-    """Refuse outputs that could not be written before any work is done."""
-    names = [path for path in (html, json_file, output) if path not in (None, _STANDARD_OUTPUT)]
-    for path in names:
-        assert path is not None
-        check_not_same(path, file)
-    if len({path.resolve() for path in names if path}) < len(names):
-        raise lepp.InputError("Two outputs have the same name: give each its own.")
-    if output is not None:
-        check_output(output, file)
-
-
-def _json_text(found: Survey) -> str:
-    return json.dumps(as_json(found), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+def _json_text(surveyed: Survey) -> str:
+    values = as_json(surveyed)
+    texts = findings.warnings(surveyed)
+    values["warnings"] = [entry | {"text": texts[entry["kind"]]} for entry in values["warnings"]]
+    return json.dumps(values, indent=1, ensure_ascii=False, allow_nan=False) + "\n"

@@ -5,34 +5,102 @@ from collections.abc import Iterable
 import numpy as np
 
 import lepp
+from lepp.errors import listed
 from reports.page.blocks import Tile
 from reports.text.numbers import count, show
+from study.meshes.near_points import NEAR
 from study.meshes.survey import QUANTILES, RANDOM_DELAUNAY, Survey, quantile
 
 _ROWS = 24  # of a histogram; the sizes beyond share the last
 _STEPS = 12  # of a path that are named in a sentence
 
 
-def headline(found: Survey) -> str:
+def headline(survey: Survey) -> str:
     """Say how far one refinement spreads."""
-    counts = found.counts
+    counts = survey.counts
     mean = show(counts.mean, "fixed2")
     return (
-        f"The longest-edge path of a triangle of {found.mesh.path.name} has {mean} triangles on "
+        f"The longest-edge path of a triangle of {survey.mesh.path.name} has {mean} triangles on "
         f"average, itself included, and {count(counts.max, 'triangle')} at most."
     )
 
 
-def spread(found: Survey) -> str:
+def warnings(survey: Survey) -> dict[str, str]:
+    """Say why the numbers may not be what they seem; by the kinds of `study.meshes.as_json`."""
+    texts = {}
+    near = survey.near_points
+    if survey.falls_apart:
+        texts["isolated triangles"] = (
+            f"{survey.n_isolated:,} of the {len(survey.triangulation):,} triangles have no "
+            "neighbour at all: no path goes anywhere from them, and the numbers below say nothing "
+            "of a surface that they may be meant to make."
+        )
+    if near.count:
+        texts["near points"] = (
+            f"{count(near.count, 'point')} on the boundary nearly "
+            f"{'agrees' if near.count == 1 else 'agree'} with another (to {NEAR:g} of the mesh's "
+            "extent) but not exactly, so that what meets there is not joined: --merge-within "
+            f"{near.merge_within:g} joins such points."
+        )
+    if len(survey.hanging_nodes):
+        texts["hanging nodes"] = _hanging(survey.hanging_nodes)
+    if survey.ties_matter:
+        mean = show(survey.mean_if_equal, "fixed2")
+        texts["nearly equal edges"] = (
+            f"The two longest edges of {_triangles(survey.paths.n_nearly_equal)} agree to "
+            f"{lepp.NEARLY_EQUAL:g} of their length. If such edges are meant to be equal, the mean "
+            f"is {mean} (--equal-within {lepp.NEARLY_EQUAL:g})."
+        )
+    return texts
+
+
+def _hanging(points: np.ndarray) -> str:
+    lie = "lies" if len(points) == 1 else "lie"
+    return (
+        f"{count(len(points), 'point')} ({listed(points, most=3)}) {lie} inside an edge of another "
+        "triangle (hanging nodes: the mesh does not conform there). Paths stop at such edges, and "
+        "what is said of boundary, pieces and holes is not to be trusted."
+    )
+
+
+def ties(survey: Survey) -> str:
+    """Say how many triangles have longest edges that are equal, or nearly so."""
+    paths, within = survey.paths, survey.equal_within
+    counted = f", lengths that agree to {within:g} counting as equal" if within else ""
+    if paths.n_equal == 0 and paths.n_nearly_equal == 0:
+        return f"No triangle has two equal longest edges, or nearly equal ones{counted}."
+    equal = (
+        f"{_triangles(paths.n_equal, 'has', 'have')} more than one longest edge"
+        if paths.n_equal
+        else "No triangle has two equal longest edges"
+    )
+    nearly = (
+        f"the two longest edges of {_triangles(paths.n_nearly_equal)} agree to "
+        f"{lepp.NEARLY_EQUAL:g} of their length"
+    )
+    shortest = (
+        " Where there are several longest edges, the path is the shortest of those that they give, "
+        "so that no number depends on how the mesh is numbered."
+        if paths.n_equal
+        else ""
+    )
+    return f"{equal}{counted}; {nearly}.{shortest}"
+
+
+def _triangles(number: int, one: str = "", many: str = "") -> str:
+    return count(number, f"triangle {one}".strip(), f"triangles {many}".strip())
+
+
+def spread(survey: Survey) -> str:
     """Say how the sizes are distributed."""
-    counts = found.counts
+    counts = survey.counts
     half, nine, most = (quantile(counts, share) for share in QUANTILES[:3])
     return (
         f"Half of the triangles have a path of at most {half}, nine in ten of at most {nine}, and "
         f"99 in a hundred of at most {most} triangles; the standard deviation is "
-        f"{show(counts.sd, 'fixed2')}. {show(found.share_at_once, 'percent1')} of the paths end at "
-        "once: the triangle's own longest edge is also that of its neighbour, or is on the "
-        "boundary, and a refinement there touches nothing else."
+        f"{show(counts.sd, 'fixed2')}. {show(survey.share_at_once, 'percent1')} of the paths end "
+        "at once: the triangle's own longest edge is also that of its neighbour, or lies on the "
+        "boundary, and a refinement there divides the triangles at that edge and no other."
     )
 
 
@@ -59,46 +127,67 @@ def worst(found: Survey) -> str:
     )
 
 
-def regions(found: Survey) -> str:
+def regions(survey: Survey) -> str:
     """Say where the paths end."""
-    sizes = found.region_sizes
-    boundary = found.type_counts["none"]
-    pairs = found.type_counts["C"] / len(found.triangulation)
+    sizes = survey.region_sizes
+    boundary = survey.type_counts["none"]
+    pairs = survey.type_counts["C"] / len(survey.triangulation)
     return (
         f"The paths end at {count(len(sizes), 'terminal edge')}, {boundary:,} of them on the "
         f"boundary. {show(pairs, 'percent1')} of the triangles stand in a terminal pair, and the "
         "triangles whose paths end at one terminal edge make a region of "
         f"{show(float(sizes.mean()), 'fixed2')} triangles on average (standard deviation "
-        f"{show(float(sizes.std()), 'fixed2')}, at most {int(sizes.max()):,}). In large random "
-        f"Delaunay triangulations the share tends to about "
-        f"{show(RANDOM_DELAUNAY['pair_share'], 'percent1')} and the region to about "
-        f"{RANDOM_DELAUNAY['mean_region']} triangles, as this project's study measures them."
+        f"{show(float(sizes.std()), 'fixed2')}, at most {int(sizes.max()):,}).{_random(survey)}"
     )
 
 
-def theory(found: Survey) -> str:
+def _random(survey: Survey) -> str:
+    if not survey.is_like_random:
+        return ""
+    return (
+        f" In Delaunay triangulations of {RANDOM_DELAUNAY['n_points']:,} uniform random points, "
+        "which this project's study measures, the share is "
+        f"{show(RANDOM_DELAUNAY['pair_share'], 'percent1')} and the region has "
+        f"{RANDOM_DELAUNAY['mean_region']} triangles."
+    )
+
+
+def theory(survey: Survey) -> str:
     """Hold Theorem 1 against the mesh."""
-    p = found.p
+    p = survey.p
     if not p:
         return (
             "No triangle has a longest-edge neighbour of type C (one whose longest edge is the "
             "same), so that the published Theorem 1 says nothing of this mesh."
         )
-    premise = "is" if p >= 1 / 3 else "is not"
     mean, sd = show(lepp.theory.mean(p), "fixed2"), show(lepp.theory.sd(p), "fixed2")
     return (
         f"{show(p, 'fixed3')} of the longest-edge neighbours are of type C: their longest edge is "
         "the same, and the path ends. If each step ended a path with this probability, as the "
         f"published Theorem 1 has it, sizes would have mean {mean} and standard deviation {sd}; "
         "measured are "
-        f"{show(found.counts.mean, 'fixed2')} and {show(found.counts.sd, 'fixed2')}. The premise "
-        f"of Theorem 2, a share of at least 1/3, {premise} met."
+        f"{show(survey.counts.mean, 'fixed2')} and {show(survey.counts.sd, 'fixed2')}. "
+        f"{_theorem_2(survey.counts, p)}"
     )
 
 
-def tiles(found: Survey) -> list[Tile]:
+def _theorem_2(counts: lepp.LeppCounts, p: float) -> str:
+    (least, most), (_, most_sd) = lepp.theory.bounds()
+    met = p >= lepp.theory.LEAST_P
+    kept = least <= counts.mean <= most and counts.sd <= most_sd
+    premise = "is met" if met else "is not met"
+    link = "and" if met == kept else "but"
+    hold = f"{'hold' if kept else 'do not hold'}{' all the same' if kept and not met else ''}"
+    return (
+        f"The premise of Theorem 2, a share of at least 1/3, {premise}, {link} its bounds (a mean "
+        f"from {least:g} to {most:g}, a standard deviation of at most {show(most_sd, 'fixed2')}) "
+        f"{hold}."
+    )
+
+
+def tiles(survey: Survey) -> list[Tile]:
     """Make the key figures."""
-    counts, sizes = found.counts, found.region_sizes
+    counts, sizes = survey.counts, survey.region_sizes
     return [
         Tile(
             show(counts.mean, "fixed2"),
@@ -108,53 +197,56 @@ def tiles(found: Survey) -> list[Tile]:
         Tile(
             f"{counts.max:,}",
             "Longest path",
-            f"triangles, from triangle {int(found.worst_path[0]):,}",
+            f"triangles, from triangle {int(survey.worst_path[0]):,}",
         ),
         Tile(
-            show(found.share_at_once, "percent1"),
+            show(survey.share_at_once, "percent1"),
             "Paths that end at once",
-            "its longest edge is terminal: refining touches no more",
+            "the triangle's own longest edge is terminal",
         ),
         Tile(
-            show(found.type_counts["C"] / len(found.triangulation), "percent1"),
+            show(survey.type_counts["C"] / len(survey.triangulation), "percent1"),
             "Triangles in terminal pairs",
-            f"about {show(RANDOM_DELAUNAY['pair_share'], 'percent1')} in random Delaunay meshes",
+            f"{show(RANDOM_DELAUNAY['pair_share'], 'percent1')} in random Delaunay meshes"
+            if survey.is_like_random
+            else "two that have their longest edge in common",
         ),
         Tile(
             show(float(sizes.mean()), "fixed2"),
             "Mean terminal-edge region",
-            f"triangles; about {RANDOM_DELAUNAY['mean_region']} in random Delaunay meshes",
+            f"triangles; {RANDOM_DELAUNAY['mean_region']} in random Delaunay meshes"
+            if survey.is_like_random
+            else "triangles whose paths end at one edge",
         ),
         Tile(
-            show(found.p, "fixed3"),
+            show(survey.p, "fixed3"),
             "Neighbours of type C",
             "of all across longest edges; Theorem 2 takes at least 1/3",
         ),
     ]
 
 
-def facts(found: Survey) -> list[tuple[str, str]]:
+def facts(survey: Survey) -> list[tuple[str, str]]:
     """Describe the mesh itself."""
-    shape = found.shape
-    pieces = shape["n_pieces"]
+    shape = survey.topology
+    pieces = shape.n_pieces
     boundary = (
-        f"{count(shape['n_boundary_edges'], 'edge')} in "
-        f"{count(shape['n_boundary_loops'], 'closed line')}"
-        if shape["n_boundary_edges"]
+        f"{count(shape.n_boundary_edges, 'edge')} in {count(shape.n_boundary_loops, 'closed line')}"
+        if shape.n_boundary_edges
         else "none: the surface is closed"
     )
     rows = [
-        ("Triangles", f"{shape['n_triangles']:,}"),
-        ("Points", f"{shape['n_points']:,}"),
-        ("Edges", f"{shape['n_edges']:,}"),
+        ("Triangles", f"{shape.n_triangles:,}"),
+        ("Points", f"{shape.n_points:,}"),
+        ("Edges", f"{shape.n_edges:,}"),
         ("Boundary", boundary),
         ("Pieces", f"{pieces:,}" + (", between which no path goes" if pieces > 1 else "")),
     ]
-    if shape["n_holes"] is None:
-        rows.append(("Euler number", show(shape["euler_number"], "int")))
+    if shape.n_holes is None:
+        rows.append(("Euler number", show(shape.euler_number, "int")))
         rows.insert(0, ("Mesh", "a surface in space"))
     else:
-        rows.append(("Holes", f"{shape['n_holes']:,}"))
+        rows.append(("Holes", f"{shape.n_holes:,}"))
         rows.insert(0, ("Mesh", "in the plane"))
     return rows
 

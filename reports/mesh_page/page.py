@@ -23,33 +23,34 @@ _STEPS = 60  # of the longest path that the table shows
 _BOUNDARY, _PAIR = 1, 4
 
 
-def render(found: Survey) -> str:
+def render(survey: Survey) -> str:
     """Make the page's HTML; the same for the same mesh."""
-    drawn = drawn_triangles(found)
+    drawn = drawn_triangles(survey)
     return (
         environment()
         .get_template("mesh.html.j2")
         .render(
             static=static,
-            name=found.mesh.path.name,
-            headline=findings.headline(found),
-            tiles=Tiles({ALWAYS: findings.tiles(found)}),
-            spread=_prose(findings.spread(found)),
-            worst=_prose(findings.worst(found)),
-            regions=_prose(findings.regions(found)),
-            theory=_prose(findings.theory(found)),
-            facts=Facts(tuple(findings.facts(found))),
-            notes=found.mesh.notes,
-            space=found.triangulation.points.shape[1] == 3,
+            name=survey.mesh.path.name,
+            warnings=findings.warnings(survey).values(),
+            headline=findings.headline(survey),
+            tiles=Tiles({ALWAYS: findings.tiles(survey)}),
+            spread=_prose(findings.spread(survey), findings.ties(survey)),
+            worst=_prose(findings.worst(survey)),
+            regions=_prose(findings.regions(survey)),
+            theory=_prose(findings.theory(survey)),
+            facts=Facts(tuple(findings.facts(survey))),
+            notes=survey.mesh.notes,
+            space=survey.triangulation.points.shape[1] == 3,
             n_drawn=len(drawn),
-            whole=len(drawn) == len(found.triangulation),
-            n_triangles=len(found.triangulation),
-            sizes=_histogram(found.counts.counts),
-            region_sizes=_histogram(np.bincount(found.region_sizes)),
-            path=list(_path_rows(found)),
-            n_path=len(found.worst_path),
-            drawing=drawing(found, drawn),
-            data=packed(found, drawn),
+            whole=len(drawn) == len(survey.triangulation),
+            n_triangles=len(survey.triangulation),
+            sizes=_histogram(survey.counts.counts),
+            region_sizes=_histogram(np.bincount(survey.region_sizes)),
+            path=list(_path_rows(survey)),
+            n_path=len(survey.worst_path),
+            drawing=drawing(survey, drawn),
+            data=packed(survey, drawn),
         )
     )
 
@@ -130,8 +131,8 @@ def _ends(found: Survey, drawn: np.ndarray) -> np.ndarray:
     return np.select([types == lepp.TYPE_NONE, types == lepp.TYPE_C], kinds, 0).astype(np.uint8)
 
 
-def _prose(sentence: str) -> Prose:
-    return Prose({ALWAYS: [sentence]})
+def _prose(*paragraphs: str) -> Prose:
+    return Prose({ALWAYS: list(paragraphs)})
 
 
 def _histogram(counts: np.ndarray) -> list[dict[str, object]]:
@@ -149,16 +150,16 @@ def _histogram(counts: np.ndarray) -> list[dict[str, object]]:
     ]
 
 
-def _path_rows(found: Survey) -> Iterable[tuple[str, ...]]:
-    triangulation = found.triangulation
-    for step, t in enumerate(found.worst_path[:_STEPS], 1):
+def _path_rows(survey: Survey) -> Iterable[tuple[str, ...]]:
+    triangulation = survey.triangulation
+    for step, t in enumerate(survey.worst_path[:_STEPS], 1):
         vertices = triangulation.triangles[t]
         centre = triangulation.points[vertices].mean(axis=0)
         yield (
             f"{step:,}",
             f"{t:,}",
-            f"{found.mesh.blocks[t]}",
-            f"{found.mesh.cells[t]:,}",
+            f"{survey.mesh.blocks[t]}",
+            f"{survey.mesh.cells[t]:,}",
             ", ".join(f"{vertex:,}" for vertex in vertices),
             ", ".join(show(float(x), "g5") for x in centre),
         )

@@ -1,7 +1,5 @@
 """A mesh's survey on the terminal."""
 
-from dataclasses import replace
-
 import numpy as np
 from rich import box
 from rich.console import Console
@@ -9,42 +7,27 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-import lepp
 from reports.mesh_page import findings
 from reports.text.numbers import show
 from study.meshes.survey import Survey
 
-_OPTIONS = {
-    "quads": "--split-quads splits each into two triangles",
-    "repeated points": "--merge-points joins them, --keep-points leaves the mesh cut there",
-    "copies": "--drop-duplicates leaves them out",
-    "collapsed triangles": "--drop-duplicates leaves them out",
-}
 
-
-def in_options(error: lepp.MeshError) -> lepp.MeshError:
-    """Say what to do about a mesh in terms of the command's options, where there is one."""
-    problems = []
-    for problem in error.problems:
-        remedy = _OPTIONS.get(problem.kind, problem.remedy)
-        remedy = remedy.replace("give ignore_volumes=True to take", "--ignore-volumes takes")
-        problems.append(replace(problem, remedy=remedy))
-    return lepp.MeshError(problems)
-
-
-def print_survey(found: Survey) -> None:
+def print_survey(survey: Survey) -> None:
     """Print what the paths of a mesh say: with rules on a terminal, plain elsewhere."""
     console = Console(highlight=False)
-    _print(console, findings.headline(found), style="bold")
-    _print(console, ". ".join(f"{name}: {value}" for name, value in findings.facts(found)) + ".")
-    for note in found.mesh.notes:
+    for warning in findings.warnings(survey).values():
+        _print(console, f"Warning: {warning}")
+    _print(console, findings.headline(survey), style="bold")
+    _print(console, ". ".join(f"{name}: {value}" for name, value in findings.facts(survey)) + ".")
+    for note in survey.mesh.notes:
         _print(console, f"Note: {note}")
-    _print_part(console, "How far refinements spread", findings.spread(found))
-    console.print(_sizes(console, found.counts.counts))
-    _print_part(console, "The longest path", findings.worst(found))
-    console.print(_path(console, found))
-    _print_part(console, "Where the paths end", findings.regions(found))
-    _print_part(console, "Theory", findings.theory(found))
+    _print_part(console, "How far refinements spread", findings.spread(survey))
+    _print(console, findings.ties(survey))
+    console.print(_sizes(console, survey.counts.counts))
+    _print_part(console, "The longest path", findings.worst(survey))
+    console.print(_path(console, survey))
+    _print_part(console, "Where the paths end", findings.regions(survey))
+    _print_part(console, "Theory", findings.theory(survey))
 
 
 def _print(console: Console, text: str, style: str = "") -> None:
@@ -76,10 +59,10 @@ def _sizes(console: Console, counts: np.ndarray) -> Padding:
     return _indented(console, table)
 
 
-def _path(console: Console, found: Survey) -> Padding:
+def _path(console: Console, survey: Survey) -> Padding:
     """Make a table of the longest path's first triangles and its last."""
     table = _table(console, "Step", "Triangle", "Block", "Cell", "Points", "Centre")
-    triangulation, path = found.triangulation, found.worst_path
+    triangulation, path = survey.triangulation, survey.worst_path
     shown = range(len(path)) if len(path) <= 24 else [*range(22), None, len(path) - 1]
     for step in shown:
         if step is None:
@@ -91,8 +74,8 @@ def _path(console: Console, found: Survey) -> Padding:
         table.add_row(
             f"{step + 1:,}",
             f"{t:,}",
-            f"{found.mesh.blocks[t]}",
-            f"{found.mesh.cells[t]:,}",
+            f"{survey.mesh.blocks[t]}",
+            f"{survey.mesh.cells[t]:,}",
             " ".join(map(str, vertices)),
             " ".join(f"{x:.6g}" for x in centre),
         )

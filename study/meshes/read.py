@@ -1,10 +1,5 @@
 """From a mesh file to a triangulation, and back from its triangles to the file's cells."""
 
-import os
-import pickle
-import re
-import subprocess
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,12 +8,13 @@ import numpy as np
 
 import lepp
 from lepp.errors import listed
-from lepp.mesh.checks import RepeatedPoints
+from lepp.mesh.cells import Block, CellKind, is_curved
+from lepp.mesh.checks import RepeatedPoints, check_finite, check_indices
 from lepp.mesh.conversion import MeshArrays, mesh_arrays
+from lepp.mesh.triangulation import check_points, linked
+from study.meshes.meshio_process import read_file
+from study.meshes.near_points import moved_together
 
-# The slowest of meshio's readers takes a second for about a megabyte.
-_SECONDS = 15.0
-_BYTES_A_SECOND = 100_000
 _DROPPABLE = {"copies", "collapsed triangles"}
 
 
@@ -37,12 +33,19 @@ class ReadOptions:
     repeated_points : {"refuse", "merge", "keep"}
         As for `lepp.Triangulation.from_arrays`. In STL files, which have no other way to say that
         triangles meet, points are always merged.
+    merge_within : float, optional
+        Merge also points that are no farther than this from each other, as a share of the mesh's
+        extent.
+    read_limit : float, optional
+        Seconds of processor time that the file's reader may take.
     """
 
     split_quads: bool = False
     ignore_volumes: bool = False
     drop_duplicates: bool = False
     repeated_points: RepeatedPoints = "refuse"
+    merge_within: float | None = None
+    read_limit: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,131 +84,100 @@ def read_mesh(path: Path, options: ReadOptions = ReadOptions()) -> ReadMesh:
     Raises
     ------
     lepp.InputError
-        No such file, a format that is not known, or a file that cannot be read.
+        No such file, a format that is not known, a file that cannot be read, or a distance to
+        merge points within that is none.
     lepp.MeshError
         Everything that is wrong with the mesh in it.
     """
-    contents = _read_file(path)
+    contents = read_file(path, options.read_limit)
     given = mesh_arrays(
         contents, split_quads=options.split_quads, ignore_volumes=options.ignore_volumes
     )
     stl = path.suffix.lower() == ".stl"
-    repeated_points: RepeatedPoints = "merge" if stl else options.repeated_points
-    given, triangulation, dropped = _triangulated(
-        given, repeated_points, options.drop_duplicates or stl
-    )
-    notes = [*_cell_notes(contents), *_point_notes(triangulation), *dropped]
+    notes = _cell_notes(contents)
     if stl:
         notes.insert(
             0, "An STL file repeats every point for each triangle: equal ones were joined."
         )
-    notes += _turned(given, triangulation)
+    merge = options.repeated_points
+    if options.merge_within is not None:
+        given = _near_joined(given, options.merge_within)
+    if stl or options.merge_within is not None:
+        merge = "merge"
+    given, triangulation, dropped, turned = _triangulated(
+        given, merge, options.drop_duplicates or stl
+    )
+    notes += [*_point_notes(triangulation, options.merge_within), *dropped, *turned]
     return ReadMesh(path, contents, triangulation, given.blocks, given.cells, tuple(notes))
+
+
+def _near_joined(given: MeshArrays, within: float) -> MeshArrays:
+    """Give points that nearly agree the same coordinates, so that they are merged."""
+    points = check_points(given.points, dimensions=(2, 3), all_finite=False)
+    check_finite(points, check_indices(given.triangles, len(points)))
+    points = moved_together(points, given.triangles, within)
+    return MeshArrays(points, given.triangles, given.blocks, given.cells)
 
 
 def _triangulated(
     given: MeshArrays, repeated_points: RepeatedPoints, drop: bool
-) -> tuple[MeshArrays, lepp.Triangulation, list[str]]:
-    """Link the triangles; if asked to, without those that repeat another or are a mere edge."""
+) -> tuple[MeshArrays, lepp.Triangulation, list[str], list[str]]:
+    """Link the triangles; if asked to, without those that repeat another or are a mere edge.
+
+    Returns
+    -------
+    given : MeshArrays
+        Of the triangles that are left.
+    triangulation : lepp.Triangulation
+    dropped, turned : list of str
+        What was left out, and what stood the other way round: sentences.
+
+    Raises
+    ------
+    lepp.MeshError
+        What is wrong besides what can be left out.
+    """
     dropped: list[str] = []
     while True:
         try:
-            triangulation = lepp.Triangulation.from_arrays(
-                given.points, given.triangles, repeated_points=repeated_points
-            )
+            triangulation, sound = linked(given.points, given.triangles, repeated_points)
         except lepp.MeshError as error:
-            if not drop or not {problem.kind for problem in error.problems} <= _DROPPABLE:
+            rest = [problem for problem in error.problems if problem.kind not in _DROPPABLE]
+            if not drop:
                 raise
+            if rest:
+                raise lepp.MeshError(rest) from None
             dropped += [f"{problem.what}; they were left out." for problem in error.problems]
-            bad = np.concatenate([problem.ids for problem in error.problems])
-            kept = np.setdiff1d(np.arange(len(given.triangles)), bad)
-            given = MeshArrays(
-                given.points, given.triangles[kept], given.blocks[kept], given.cells[kept]
-            )
+            given = given.without(np.concatenate([problem.ids for problem in error.problems]))
         else:
-            return given, triangulation, dropped
-
-
-def _read_file(path: Path) -> Any:  # noqa: ANN401 - a meshio.Mesh; meshio has no annotations
-    if not path.exists():
-        raise lepp.InputError(f"There is no file {path}.")
-    if not path.is_file():
-        raise lepp.InputError(f"{path} is not a file: give a mesh file.")
-    if path.stat().st_size == 0:
-        raise lepp.InputError(f"{path} is empty: give a mesh file.")
-    try:
-        with path.open("rb"):
-            pass
-    except OSError as error:
-        raise lepp.InputError(f"{path} cannot be read: {error.strerror}.") from None
-    limit = _SECONDS + path.stat().st_size / _BYTES_A_SECOND
-    # Without the current directory on the path (-P), in which a file might be called numpy.py.
-    command = [sys.executable, "-P", "-m", "study.meshes.meshio_process", str(path)]
-    try:
-        done = subprocess.run(
-            command,
-            capture_output=True,
-            timeout=limit,
-            check=False,
-            env=os.environ | {"COLUMNS": "1000"},  # what is printed is not to be wrapped
-        )
-    except subprocess.TimeoutExpired:
-        raise lepp.InputError(
-            f"{path} could not be read: meshio's reader was not done after {limit:.0f} s, which "
-            "happens on files that are cut short or of another format than their name says."
-        ) from None
-    mesh, reason = pickle.loads(done.stdout) if done.returncode == 0 else (None, "")
-    if mesh is None:
-        raise lepp.InputError(_unreadable(path, reason or _printed(done.stderr)))
-    return mesh
-
-
-def _unreadable(path: Path, reason: str) -> str:
-    if "deduce file format" in reason:
-        from meshio import extension_to_filetypes
-
-        return (
-            f"{path} does not say by its name which format it has: the extensions known are "
-            f"{', '.join(sorted(extension_to_filetypes))}."
-        )
-    reason = " ".join(reason.split())
-    because = f" ({reason[:200].rstrip('.')})" if reason else ""
-    return (
-        f"{path} could not be read as a {path.suffix} file{because}: it may be cut short, damaged, "
-        "or of a variant that meshio does not read; save it again, or in another format."
-    )
-
-
-def _printed(stderr: bytes) -> str:
-    """Return what a reader printed before it gave up, in a few words."""
-    text = re.sub(r"\x1b\[[0-9;]*m", "", stderr.decode(errors="replace"))
-    lines = [line for line in text.splitlines() if line.strip() and "Couldn't read" not in line]
-    return lines[-1] if lines else ""
+            return given, triangulation, dropped, _turned(sound.clockwise)
 
 
 def _cell_notes(contents: Any) -> list[str]:  # noqa: ANN401 - a meshio.Mesh
     """Say what became of the cells that are not plain triangles."""
-    counts: dict[str, int] = {}
+    counts: dict[tuple[str, CellKind], int] = {}
     for block in contents.cells:
         if len(block.data):
-            counts[block.type] = counts.get(block.type, 0) + len(block.data)
+            key = block.type, Block(block.type, np.asarray(block.data)).kind
+            counts[key] = counts.get(key, 0) + len(block.data)
     notes = []
-    for kind, count in counts.items():
-        cells = f"{count:,} cell{'s' if count > 1 else ''} of type {kind}"
-        if re.fullmatch(r"quad\d*", kind):
+    for (name, kind), count in counts.items():
+        cells = f"{count:,} cell{'s' if count > 1 else ''} of type {name}"
+        if kind is CellKind.QUAD:
             notes.append(f"Split into two triangles each: {cells}.")
-        elif re.fullmatch(r"triangle\d+", kind):
-            notes.append(f"Taken with straight edges: {cells}.")
-        elif not re.fullmatch(r"triangle|polygon\d*", kind):
+        elif kind is not CellKind.TRIANGLE:
             notes.append(f"Left out, being no triangles: {cells}.")
+        elif is_curved(name):
+            notes.append(f"Taken with straight edges: {cells}.")
     return notes
 
 
-def _point_notes(triangulation: lepp.Triangulation) -> list[str]:
+def _point_notes(triangulation: lepp.Triangulation, within: float | None) -> list[str]:
     notes = []
     merged = triangulation.repeated[:, 0]
     if len(merged):
-        notes.append(f"Merged with another point at the same place: points {listed(merged)}.")
+        place = "at the same place" if within is None else f"within {within:g} of the mesh's extent"
+        notes.append(f"Merged with another point {place}: points {listed(merged)}.")
     unused = unused_points(triangulation)
     if len(unused):
         notes.append(f"Left out, being in no triangle: points {listed(unused)}.")
@@ -220,14 +192,11 @@ def unused_points(triangulation: lepp.Triangulation) -> np.ndarray:
     return np.flatnonzero(~used)
 
 
-def _turned(given: MeshArrays, triangulation: lepp.Triangulation) -> list[str]:
+def _turned(clockwise: np.ndarray) -> list[str]:
     """Say which triangles of a plane mesh stood the other way round than the rest."""
-    first = np.arange(len(triangulation.points))
-    first[triangulation.repeated[:, 0]] = triangulation.repeated[:, 1]
-    turned = (first[given.triangles] != triangulation.triangles).any(axis=1)
-    if turned.all() or not turned.any():
+    if clockwise.all() or not clockwise.any():
         return []
-    fewer = np.flatnonzero(turned if 2 * turned.sum() <= len(turned) else ~turned)
+    fewer = np.flatnonzero(clockwise if 2 * clockwise.sum() <= len(clockwise) else ~clockwise)
     return [
         f"Triangles {listed(fewer)} list their points the other way round than the rest; that "
         "changes no path."

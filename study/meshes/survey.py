@@ -2,20 +2,22 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 import lepp
-from study.meshes.read import ReadMesh, unused_points
+from study.meshes.hanging_nodes import hanging_nodes
+from study.meshes.near_points import NearPoints, near_points
+from study.meshes.read import ReadMesh
+from study.meshes.topology import Topology, topology
 
 QUANTILES = (0.5, 0.9, 0.99, 0.999)
 
-RANDOM_DELAUNAY = {"pair_share": 0.303, "mean_region": 6.6}
-"""What large random Delaunay triangulations tend to: the share of triangles in terminal pairs, and
-the triangles in a terminal-edge region. Known from measurement; no theorem gives them."""
+RANDOM_DELAUNAY = {"pair_share": 0.301, "mean_region": 6.65, "n_points": 200_000}
+"""Of Delaunay triangulations of uniform random points, as this project's study measures them: the
+share of triangles in terminal pairs, and the triangles in a terminal-edge region."""
+
+_LEAST_COMPARED = 1000  # triangles: in fewer, the boundary's share is too large
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,10 +28,13 @@ class Survey:
     ----------
     mesh : ReadMesh
     paths : lepp.LeppPaths
+    equal_within : float
+        What the paths took for equal lengths: as for `lepp.lepp_paths`.
     """
 
     mesh: ReadMesh
     paths: lepp.LeppPaths
+    equal_within: float = 0.0
 
     @property
     def triangulation(self) -> lepp.Triangulation:
@@ -43,9 +48,61 @@ class Survey:
 
     @property
     def share_at_once(self) -> float:
-        """Share of the triangles whose own longest edge is a terminal edge."""
+        """Share of the triangles of which a longest edge is a terminal edge."""
         at_once = self.type_counts["C"] + self.type_counts["none"]
         return at_once / len(self.triangulation)
+
+    @cached_property
+    def mean_if_equal(self) -> float:
+        """The mean LEPP size if lengths that agree to `lepp.NEARLY_EQUAL` count as equal."""
+        if self.equal_within >= lepp.NEARLY_EQUAL:
+            return self.counts.mean
+        if self.equal_within == 0.0 and self.paths.n_nearly_equal == self.paths.n_equal:
+            return self.counts.mean
+        sizes = lepp.lepp_sizes(self.triangulation, equal_within=lepp.NEARLY_EQUAL)
+        return lepp.LeppCounts.from_sizes(sizes).mean
+
+    @property
+    def ties_matter(self) -> bool:
+        """Whether the two decimals of the mean depend on nearly equal edges being equal."""
+        return f"{self.mean_if_equal:.2f}" != f"{self.counts.mean:.2f}"
+
+    @cached_property
+    def n_isolated(self) -> int:
+        """Triangles all of whose edges are on the boundary."""
+        return int((self.triangulation.neighbors < 0).all(axis=1).sum())
+
+    @property
+    def falls_apart(self) -> bool:
+        """Whether more than half of the triangles, of two or more, have no neighbour at all."""
+        m = len(self.triangulation)
+        return m > 1 and 2 * self.n_isolated > m
+
+    @cached_property
+    def near_points(self) -> NearPoints:
+        """Boundary points that nearly agree with another."""
+        return near_points(self.triangulation)
+
+    @cached_property
+    def hanging_nodes(self) -> np.ndarray:
+        """Points that lie inside a boundary edge, (k,) int64; not looked for in a soup."""
+        return np.empty(0, np.int64) if self.falls_apart else hanging_nodes(self.triangulation)
+
+    @property
+    def is_like_random(self) -> bool:
+        """Whether a comparison with random Delaunay triangulations says something.
+
+        So of unstructured meshes in the plane that hang together: 1,000 triangles or more, in one
+        piece, of which one in a hundred at most has nearly equal longest edges.
+        """
+        m = len(self.triangulation)
+        return (
+            self.topology.dimensions == 2
+            and m >= _LEAST_COMPARED
+            and self.topology.n_pieces == 1
+            and 100 * self.paths.n_nearly_equal <= m
+            and len(self.hanging_nodes) == 0
+        )
 
     @cached_property
     def worst_path(self) -> np.ndarray:
@@ -73,156 +130,17 @@ class Survey:
         return self.type_counts["C"] / neighbors if neighbors else None
 
     @cached_property
-    def shape(self) -> dict[str, Any]:
+    def topology(self) -> Topology:
         """Points, edges, boundary, pieces and holes of the mesh."""
-        return _shape(self.triangulation)
+        return topology(self.triangulation)
 
 
-def survey(mesh: ReadMesh) -> Survey:
-    """Compute the paths of a mesh."""
-    return Survey(mesh, lepp.lepp_paths(mesh.triangulation))
+def survey(mesh: ReadMesh, *, equal_within: float = 0.0) -> Survey:
+    """Compute the paths of a mesh; `equal_within` is that of `lepp.lepp_paths`."""
+    paths = lepp.lepp_paths(mesh.triangulation, equal_within=equal_within)
+    return Survey(mesh, paths, equal_within)
 
 
 def quantile(counts: lepp.LeppCounts, share: float) -> int:
     """Return the smallest size that at least this share of the triangles does not exceed."""
     return int(np.searchsorted(np.cumsum(counts.counts), share * counts.count))
-
-
-def as_json(found: Survey) -> dict[str, Any]:
-    """Make JSON values of a survey; the keys stand in the same order always.
-
-    Returns
-    -------
-    dict
-        ``file``: name of the file. ``notes``: what was done to the mesh while reading it.
-
-        ``mesh``: dimensions (2 or 3), n_points (those in use), n_unused_points, n_merged_points,
-        n_triangles, n_edges, n_boundary_edges, n_boundary_loops, n_pieces (joined across edges),
-        euler_number, n_holes (null in space).
-
-        ``lepp``: mean, sd (over the triangles), skewness, kurtosis (excess), max, quantiles, the
-        share of triangles that end_at_once (their longest edge is terminal), and the histogram as
-        pairs of a size and its number of triangles.
-
-        ``worst``: the longest path: its size, the number of triangles with one as long, and path,
-        an entry a triangle: its index in this survey, its block and cell in the file (the halves
-        of a quad have the same), vertices, and centroid.
-
-        ``neighbor_types``: triangles by the type of the neighbour across their longest edge.
-        ``theory``: p, the share of type C among those, and what Theorem 1 makes of it (null where
-        it says nothing).
-
-        ``regions``: number of terminal edges, those on the boundary, the share of triangles in
-        terminal pairs, mean, sd and max of the triangles in a region, the largest region's
-        terminal edge (points and their coordinates), and the histogram of the sizes.
-
-        ``random_delaunay``: what large random Delaunay triangulations tend to, to compare.
-    """
-    counts, paths = found.counts, found.paths
-    return {
-        "file": found.mesh.path.name,
-        "notes": list(found.mesh.notes),
-        "mesh": found.shape,
-        "lepp": {
-            "mean": counts.mean,
-            "sd": counts.sd,
-            "skewness": _number(counts.skewness),
-            "kurtosis": _number(counts.kurtosis),
-            "max": counts.max,
-            "quantiles": {str(share): quantile(counts, share) for share in QUANTILES},
-            "end_at_once": found.share_at_once,
-            "histogram": _pairs(counts.counts),
-        },
-        "worst": {
-            "size": counts.max,
-            "n_as_long": int((paths.sizes == counts.max).sum()),
-            "path": [_place(found, int(t)) for t in found.worst_path],
-        },
-        "neighbor_types": found.type_counts,
-        "theory": _theory(found.p),
-        "regions": _regions(found),
-        "random_delaunay": RANDOM_DELAUNAY,
-    }
-
-
-def _place(found: Survey, t: int) -> dict[str, Any]:
-    vertices = found.triangulation.triangles[t]
-    return {
-        "triangle": t,
-        "block": int(found.mesh.blocks[t]),
-        "cell": int(found.mesh.cells[t]),
-        "vertices": vertices.tolist(),
-        "centroid": found.triangulation.points[vertices].mean(axis=0).tolist(),
-    }
-
-
-def _theory(p: float | None) -> dict[str, float | None]:
-    return {
-        "p": p,
-        "mean": lepp.theory.mean(p) if p else None,
-        "sd": lepp.theory.sd(p) if p else None,
-    }
-
-
-def _regions(found: Survey) -> dict[str, Any]:
-    sizes, edges = found.region_sizes, found.paths.terminal_edges
-    largest = int(sizes.argmax())
-    return {
-        "n": len(sizes),
-        "n_on_boundary": found.type_counts["none"],
-        "pair_share": found.type_counts["C"] / len(found.triangulation),
-        "mean": float(sizes.mean()),
-        "sd": float(sizes.std()),
-        "max": int(sizes.max()),
-        "largest": {
-            "points": edges[largest].tolist(),
-            "coordinates": found.triangulation.points[edges[largest]].tolist(),
-        },
-        "histogram": _pairs(np.bincount(sizes)),
-    }
-
-
-def _pairs(counts: np.ndarray) -> list[list[int]]:
-    sizes = np.flatnonzero(counts)
-    return np.column_stack((sizes, counts[sizes])).tolist()
-
-
-def _number(value: float) -> float | None:
-    return float(value) if np.isfinite(value) else None
-
-
-def _shape(triangulation: lepp.Triangulation) -> dict[str, Any]:
-    triangles, neighbors = triangulation.triangles, triangulation.neighbors
-    m, n = len(triangles), len(triangulation.points)
-    unused, merged = len(unused_points(triangulation)), len(triangulation.repeated)
-    used = n - unused - merged
-    n_boundary = triangulation.n_hull
-    n_edges = (3 * m + n_boundary) // 2
-    euler = used - n_edges + m
-    row, side = np.nonzero(neighbors >= 0)
-    n_pieces = _n_groups(row, neighbors[row, side], m)
-    row, side = np.nonzero(neighbors < 0)
-    start, end = triangles[row, (side + 1) % 3], triangles[row, (side + 2) % 3]
-    loops = _n_groups(start, end, n) - (n - len(np.unique(np.concatenate((start, end)))))
-    touching = _n_groups(triangles[:, [0, 1]].ravel(), triangles[:, [1, 2]].ravel(), n)
-    in_plane = triangulation.points.shape[1] == 2
-    return {
-        "dimensions": triangulation.points.shape[1],
-        "n_points": used,
-        "n_unused_points": unused,
-        "n_merged_points": merged,
-        "n_triangles": m,
-        "n_edges": n_edges,
-        "n_boundary_edges": n_boundary,
-        "n_boundary_loops": loops,
-        "n_pieces": n_pieces,
-        "euler_number": euler,
-        # In the plane, b0 - b1 is the Euler number, and b1 counts the holes.
-        "n_holes": touching - (n - used) - euler if in_plane else None,
-    }
-
-
-def _n_groups(start: np.ndarray, end: np.ndarray, n: int) -> int:
-    """Return into how many connected groups some edges join n nodes."""
-    graph = coo_array((np.ones(len(start), bool), (start, end)), shape=(n, n))
-    return int(connected_components(graph, directed=False, return_labels=False))

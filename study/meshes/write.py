@@ -44,7 +44,7 @@ def check_not_same(output: Path, mesh_file: Path) -> None:
         raise lepp.InputError(f"There is no directory {output.parent} to write {output.name} to.")
 
 
-def write_mesh(found: Survey, output: Path) -> None:
+def write_mesh(survey: Survey, output: Path) -> None:
     """Write the mesh with its own data and that of its paths.
 
     The new data of each cell: lepp_triangle (its index in the survey), lepp_size, lepp_successor
@@ -55,7 +55,7 @@ def write_mesh(found: Survey, output: Path) -> None:
 
     Parameters
     ----------
-    found : Survey
+    survey : Survey
     output : Path
         Of one of `FORMATS`; replaced as a whole if it exists.
 
@@ -66,18 +66,18 @@ def write_mesh(found: Survey, output: Path) -> None:
     """
     import meshio
 
-    check_output(output, found.mesh.path)
-    contents = found.mesh.contents
+    check_output(output, survey.mesh.path)
+    contents = survey.mesh.contents
     split = [
-        block.type.startswith("quad") and bool((found.mesh.blocks == k).any())
+        block.type.startswith("quad") and bool((survey.mesh.blocks == k).any())
         for k, block in enumerate(contents.cells)
     ]
-    cells = _cells(found, split)
+    cells = _cells(survey, split)
     mesh = meshio.Mesh(
         contents.points,
         cells,
         point_data={name: np.asarray(data) for name, data in contents.point_data.items()},
-        cell_data=_own_data(found, split) | _path_data(found, split, [len(c) for _, c in cells]),
+        cell_data=_file_data(survey, split) | _path_data(survey, split, [len(c) for _, c in cells]),
         field_data={
             name: np.asarray(data)
             for name, data in contents.field_data.items()
@@ -102,39 +102,41 @@ def write_mesh(found: Survey, output: Path) -> None:
             ) from None
 
 
-def _cells(found: Survey, split: list[bool]) -> list[tuple[str, np.ndarray]]:
+def _cells(survey: Survey, split: list[bool]) -> list[tuple[str, np.ndarray]]:
     """Return the file's blocks of cells, those of quads as their triangles."""
     return [
-        ("triangle", found.triangulation.triangles[found.mesh.blocks == k])
+        ("triangle", survey.triangulation.triangles[survey.mesh.blocks == k])
         if split[k]
         else (block.type, block.data)
-        for k, block in enumerate(found.mesh.contents.cells)
+        for k, block in enumerate(survey.mesh.contents.cells)
     ]
 
 
-def _own_data(found: Survey, split: list[bool]) -> dict[str, list[np.ndarray]]:
+def _file_data(survey: Survey, split: list[bool]) -> dict[str, list[np.ndarray]]:
     """Return the file's own data of its cells, that of a quad for each of its triangles."""
     return {
         name: [
-            np.asarray(block)[found.mesh.cells[found.mesh.blocks == k]]
+            np.asarray(block)[survey.mesh.cells[survey.mesh.blocks == k]]
             if split[k]
             else np.asarray(block)
             for k, block in enumerate(data)
         ]
-        for name, data in found.mesh.contents.cell_data.items()
+        for name, data in survey.mesh.contents.cell_data.items()
     }
 
 
-def _path_data(found: Survey, split: list[bool], lengths: list[int]) -> dict[str, list[np.ndarray]]:
+def _path_data(
+    survey: Survey, split: list[bool], lengths: list[int]
+) -> dict[str, list[np.ndarray]]:
     """Return the new data, an array a block."""
-    paths, m = found.paths, len(found.triangulation)
+    paths, m = survey.paths, len(survey.triangulation)
     first = np.concatenate(([0], np.cumsum(lengths)))
-    place = first[found.mesh.blocks] + found.mesh.cells  # number of the cell in the output
+    place = first[survey.mesh.blocks] + survey.mesh.cells  # number of the cell in the output
     for k in np.flatnonzero(split):
-        place[found.mesh.blocks == k] = np.arange(first[k], first[k + 1])
+        place[survey.mesh.blocks == k] = np.arange(first[k], first[k + 1])
     successors = np.where(paths.successors < 0, -1, place[paths.successors])
     worst = np.zeros(m, np.int32)
-    worst[found.worst_path] = np.arange(1, len(found.worst_path) + 1)
+    worst[survey.worst_path] = np.arange(1, len(survey.worst_path) + 1)
     data = {}
     for name, values, none in (
         ("lepp_triangle", np.arange(m), -1),

@@ -12,10 +12,12 @@ import pytest
 from shipped_meshes import MESHES
 
 import lepp
-from study.meshes import meshio_process as reader
+from study.meshes import meshio_process
+from study.meshes import meshio_reader as reader
 from study.meshes import read as reading
+from study.meshes.as_json import as_json
 from study.meshes.read import ReadOptions, read_mesh
-from study.meshes.survey import as_json, survey
+from study.meshes.survey import survey
 from study.meshes.write import FORMATS, write_mesh
 
 SURFACE = MESHES["torus"]
@@ -276,11 +278,14 @@ def test_directories_are_no_meshes(tmp_path):
     [("mesh.mdpa", "Begin Nodes\n"), ("mesh.ply", "ply\nformat ascii 1.0\nelement vertex 3\n")],
 )
 def test_a_reader_that_never_ends_is_stopped(tmp_path, monkeypatch, name, content):
-    monkeypatch.setattr(reading, "_SECONDS", 2.0)
+    monkeypatch.setattr(meshio_process, "_SECONDS", 1.0)
     path = tmp_path / name
     path.write_text(content)  # meshio looks for the end of this part for ever
-    with pytest.raises(lepp.InputError, match="was not done after 2 s"):
+    with pytest.raises(lepp.InputError, match="not done after 1 s of processor time") as raised:
         read_mesh(path)
+    assert "--read-limit SECONDS gives it longer" in str(raised.value)
+    with pytest.raises(lepp.InputError, match="not done after 2 s of processor time"):
+        read_mesh(path, ReadOptions(read_limit=2.0))
 
 
 def test_a_file_name_does_not_shadow_a_module(tmp_path, monkeypatch):
@@ -333,7 +338,7 @@ def test_damaged_files_end_in_a_mesh_or_in_a_sentence(tmp_path, monkeypatch, kin
     ).read_bytes()
     path = tmp_path / f"damaged.{extension}"
     # The readers run in this process, which is much faster; the alarm stands for the time limit.
-    monkeypatch.setattr(reading, "_read_file", lambda path: reader.read(str(path))[0])
+    monkeypatch.setattr(reading, "read_file", lambda path, _: reader.read(str(path))[0])
     rng = np.random.default_rng(sum(kind.encode()))
     read = refused = stopped = 0
     for _ in range(5):
@@ -341,19 +346,19 @@ def test_damaged_files_end_in_a_mesh_or_in_a_sentence(tmp_path, monkeypatch, kin
             path.write_bytes(damaged)
             try:
                 with limited(0.25):
-                    contents = reading._read_file(path)
+                    contents = reading.read_file(path, None)
             except _Hang:
                 stopped += 1
                 continue
             if contents is None:
                 refused += 1
                 continue
-            monkeypatch.setattr(reading, "_read_file", lambda _, mesh=contents: mesh)
+            monkeypatch.setattr(reading, "read_file", lambda *_, mesh=contents: mesh)
             try:
                 as_json(survey(read_mesh(path, ReadOptions(split_quads=True))))
                 read += 1
             except lepp.InputError:
                 refused += 1
-            monkeypatch.setattr(reading, "_read_file", lambda path: reader.read(str(path))[0])
+            monkeypatch.setattr(reading, "read_file", lambda path, _: reader.read(str(path))[0])
     assert refused > 0
     assert read + refused + stopped >= 15

@@ -1,10 +1,16 @@
 """Meshes of other libraries handed in as they are, and everything that can be wrong with them."""
 
+import contextlib
+from itertools import product
+from types import SimpleNamespace
+
 import matplotlib.tri
 import meshio
 import naive
 import numpy as np
 import pytest
+import skfem
+import trimesh
 from scipy.spatial import ConvexHull, Delaunay
 from shipped_meshes import MESHES
 
@@ -73,7 +79,146 @@ def test_curved_triangles_are_taken_by_their_corners():
     assert Triangulation.from_object(mesh).triangles.tolist() == [[0, 1, 2]]
 
 
-@pytest.mark.parametrize("mesh", [object(), None, SQUARE, "mesh.vtu"])
+def _flat(triangles):
+    return np.column_stack((np.full(len(triangles), 3), triangles)).ravel()
+
+
+def grid(points, cells, types):
+    """What a pyvista.UnstructuredGrid holds."""
+    return SimpleNamespace(points=points, cells=np.array(cells), celltypes=np.array(types, "u1"))
+
+
+def surface(points, faces, strips=()):
+    """What a pyvista.PolyData holds."""
+    return SimpleNamespace(points=points, faces=np.array(faces), strips=np.array(strips, int))
+
+
+def test_further_libraries_give_the_same_as_their_arrays():
+    triangles = Delaunay(POINTS).simplices
+    expected = Triangulation.from_arrays(POINTS, triangles)
+    lifted = np.column_stack((POINTS, np.zeros(len(POINTS))))
+    for mesh in (
+        expected,
+        grid(lifted, _flat(triangles), [5] * len(triangles)),
+        surface(lifted, _flat(triangles)),
+        trimesh.Trimesh(lifted, triangles, process=False),
+        skfem.MeshTri(POINTS.T, triangles.T),
+        {"vertices": POINTS, "triangles": triangles, "vertex_markers": 0},
+        (POINTS, triangles),
+        [POINTS.tolist(), triangles.tolist()],
+    ):
+        taken = Triangulation.from_object(mesh)
+        assert np.array_equal(taken.points, POINTS)
+        assert np.array_equal(np.sort(taken.triangles), np.sort(expected.triangles))
+        assert np.array_equal(lepp.lepp_sizes(taken), lepp.lepp_sizes(expected))
+
+
+def test_grids_of_cells_of_several_types():
+    points = np.array([[0, 0], [2, 0], [2, 1], [0, 1], [3, 0], [3, 3], [4, 0.0]])
+    points = np.column_stack((points, np.zeros(7)))
+    cells = [2, 0, 1, 3, 0, 1, 2, 4, 1, 4, 2, 5, 3, 4, 6, 5, 1, 3]
+    mixed = grid(points, cells, [3, 5, 8, 7, 1])  # a pixel goes 0, 1, 3, 2 round
+    with pytest.raises(lepp.MeshError, match=r"1 cell of type quad \(numbers 2\)"):
+        Triangulation.from_object(mixed)
+    taken = Triangulation.from_object(mixed, split_quads=True)
+    assert {frozenset(t) for t in taken.triangles.tolist()} == {
+        frozenset(t) for t in ((0, 1, 2), (1, 4, 2), (4, 5, 2), (4, 6, 5))
+    }
+    volume = grid(points, [4, 0, 1, 2, 5, 3, 0, 1, 2], [10, 5])
+    with pytest.raises(lepp.MeshError, match="1 cell of type tetra"):
+        Triangulation.from_object(volume)
+    assert len(Triangulation.from_object(volume, ignore_volumes=True)) == 1
+
+
+def test_quads_of_surfaces_and_strips():
+    quads = surface(SQUARE, [4, 0, 1, 2, 3])
+    with pytest.raises(lepp.MeshError, match="split_quads=True"):
+        Triangulation.from_object(quads)
+    assert len(Triangulation.from_object(quads, split_quads=True)) == 2
+    with pytest.raises(lepp.MeshError, match="triangle_strip"):
+        Triangulation.from_object(surface(SQUARE, [3, 0, 1, 2], [4, 0, 1, 2, 3]))
+    with pytest.raises(lepp.MeshError, match="type polygon"):
+        Triangulation.from_object(surface(POINTS, [5, 0, 1, 2, 3, 4, 3, 5, 6, 7]))
+
+
+@pytest.mark.parametrize(
+    ("mesh", "n"),
+    [(skfem.MeshTri2(), 2), (skfem.MeshQuad(), 2), (skfem.MeshTri.init_circle(2), 64)],
+)
+def test_meshes_of_scikit_fem(mesh, n):
+    assert len(Triangulation.from_object(mesh, split_quads=True)) == n
+
+
+@pytest.mark.parametrize("mesh", [skfem.MeshTet(), skfem.MeshHex()])
+def test_volumes_of_scikit_fem_are_refused(mesh):
+    with pytest.raises(lepp.MeshError, match="extract the surface"):
+        Triangulation.from_object(mesh)
+
+
+def test_masks_are_honoured_or_refused():
+    points = np.ma.masked_array(SQUARE, np.zeros((4, 2), bool))
+    triangles = np.ma.masked_array(HALVES, np.zeros((2, 3), bool))
+    assert len(Triangulation.from_arrays(points, triangles)) == 2  # nothing is masked
+    hidden = triangles.copy()
+    hidden[1, 2] = np.ma.masked
+    gone = points.copy()
+    gone[3, 0] = np.ma.masked
+    for make in (
+        Triangulation.from_arrays,
+        lambda *arrays: Triangulation.from_object(arrays),
+        lambda p, t: Triangulation.from_object(SimpleNamespace(vertices=p, faces=t)),
+    ):
+        with pytest.raises(lepp.InputError, match=r"(Triangles|Faces) 1 are masked: leave them"):
+            make(points, hidden)
+        with pytest.raises(lepp.InputError, match="Points 3 are masked"):
+            make(gone, triangles)
+    with pytest.raises(lepp.InputError, match="Points 3 are masked"):
+        lepp.triangulate(gone)
+    mesh = matplotlib.tri.Triangulation(*SQUARE.T, HALVES, mask=[True, True])
+    with pytest.raises(lepp.InputError, match="mask of the triangles leaves none"):
+        Triangulation.from_object(mesh)
+
+
+NONSENSE = [
+    None, 3, "word", [], [[0, 1], [2]], object(), np.array(2), {}, [None], SQUARE, HALVES,
+    np.array([3, 0, 1]), [("triangle", 5)], [("triangle", [[0, 1]])], {"triangle": None},
+    [("triangle", [[0.5, 1, 2]])], np.array([["a"] * 3]), np.zeros((0, 3), int),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        ("points", "cells"), ("points", "cells", "celltypes"), ("points", "simplices"),
+        ("points", "triangles"), ("points", "faces"), ("points", "faces", "strips"),
+        ("x", "y", "triangles"), ("x", "y", "triangles", "mask"), ("vertices", "faces"), ("p", "t"),
+    ],
+)  # fmt: skip
+def test_nonsense_ends_in_a_sentence(names):
+    for values in product(NONSENSE, repeat=2):
+        values = [*values, values[-1], values[0]]
+        mesh = SimpleNamespace(**dict(zip(names, values, strict=False)))
+        with contextlib.suppress(lepp.InputError):
+            Triangulation.from_object(mesh, split_quads=True)
+
+
+def test_pairs_and_dictionaries_of_nonsense_end_in_a_sentence():
+    for one, other in product(NONSENSE, repeat=2):
+        for mesh in ((one, other), [one, other], {"vertices": one, "triangles": other}):
+            with contextlib.suppress(lepp.InputError):
+                Triangulation.from_object(mesh)
+        with contextlib.suppress(lepp.InputError):
+            Triangulation.from_arrays(one, other)
+
+
+@pytest.mark.parametrize("function", [lepp.lepp_sizes, lepp.lepp_paths])
+@pytest.mark.parametrize("mesh", [Delaunay(POINTS), (SQUARE, HALVES), None, "mesh.vtu"])
+def test_paths_of_what_is_no_triangulation(function, mesh):
+    with pytest.raises(lepp.InputError, match=r"no lepp\.Triangulation.*from_object"):
+        function(mesh)
+
+
+@pytest.mark.parametrize("mesh", [object(), None, SQUARE, "mesh.vtu", (1, 2, 3), {}])
 def test_other_objects_are_refused(mesh):
     with pytest.raises(lepp.InputError, match=r"is no mesh that can be taken as it is"):
         Triangulation.from_object(mesh)
@@ -156,6 +301,26 @@ def test_repeated_points_are_refused_merged_or_kept():
     assert len(kept.repeated) == 0
     with pytest.raises(lepp.InputError, match="use one of 'refuse', 'merge', 'keep'"):
         Triangulation.from_arrays(points, triangles, repeated_points="join")
+
+
+def test_triangles_on_a_seam_are_told_from_flat_ones():
+    points = np.vstack((SQUARE, SQUARE[:1]))
+    triangles = [[0, 1, 2], [4, 2, 3], [0, 1, 4]]
+    assert kinds(points, triangles) == {"repeated points": [4], "seam triangles": [2]}
+    assert kinds(points, triangles, repeated_points="keep") == {"seam triangles": [2]}
+    assert kinds(points, triangles, repeated_points="merge") == {"collapsed triangles": [2]}
+    assert kinds(points, [[0, 1, 2], [0, 1, 1]]) == {"collapsed triangles": [1]}
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_only_points_in_use_must_be_finite(bad):
+    points = np.vstack((SQUARE, [[bad, 0.0]]))
+    mesh = Triangulation.from_arrays(points, HALVES)
+    assert lepp.lepp_sizes(mesh).tolist() == [2, 2]
+    assert lepp.lepp_sizes(mesh, equal_within=1e-6).tolist() == [2, 2]
+    assert kinds(points, [*HALVES, [2, 4, 3]]) == {"infinite points": [4]}
+    with pytest.raises(lepp.MeshError, match=r"Points 4 .* used by triangles 2: give them finite"):
+        Triangulation.from_arrays(points, [*HALVES, [2, 4, 3]])
 
 
 def test_zeros_of_both_signs_are_one_place():
