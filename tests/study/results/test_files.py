@@ -144,9 +144,9 @@ def test_what_a_killed_writer_leaves_is_known(tmp_path):
         pass
 
     path = tmp_path / "a.json"
-    with pytest.raises(Killed), pytest.MonkeyPatch.context() as patch:
+    with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Path, "unlink", lambda *_, **__: None)
-        with replacing(path):
+        with pytest.raises(Killed), replacing(path):
             raise Killed
     assert [str(left) for left in leftovers(path)] == [str(p) for p in tmp_path.iterdir()] != []
 
