@@ -4,7 +4,7 @@ import logging
 import signal
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from multiprocessing import resource_tracker
 from threading import Lock, Thread, Timer
 from typing import Any
@@ -119,7 +119,12 @@ def check_request(
 @contextmanager
 def _told_if_long(sentence: str, note: Callable[[str], None]) -> Iterator[None]:
     """Say what is going on, if it goes on for some seconds."""
-    timer = Timer(PATIENCE_SECONDS, note, [sentence])
+
+    def tell() -> None:
+        with suppress(BrokenPipeError):  # nobody reads any more, which the run will notice
+            note(sentence)
+
+    timer = Timer(PATIENCE_SECONDS, tell)
     timer.daemon = True
     timer.start()
     try:

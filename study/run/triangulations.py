@@ -125,7 +125,9 @@ class Triangulations(Kind[Task, Design]):
     design = Design
     task = Task
     units = ("triangulations", "points")
-    preparing = "Compiling the kernels, which takes a minute or more the first time."
+    preparing = (
+        "Loading the kernels; the first time they are compiled, which takes a minute or more."
+    )
     #: The class of measures.
     measures: type = Measures
 

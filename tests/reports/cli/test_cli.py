@@ -63,6 +63,8 @@ def test_a_run_from_the_shell_ends_with_a_report_and_a_second_computes_nothing(t
     assert first.returncode == 0, first.stderr
     assert first.stderr == ""
     lines = first.stdout.splitlines()
+    if lines[0] == Triangulations.preparing:  # on a slow machine, or where it had to compile
+        del lines[0]
     assert lines[0] == "48 triangulations to compute, 22,400 points"
     assert lines[-2].startswith("48 triangulations, 22,400 points, in ")
     assert lines[-1] == f"Report: {Path('results/mine/report.html')}"

@@ -37,9 +37,11 @@ def test_text_is_written_as_it_is(tmp_path):
     assert names_in(tmp_path) == ["a.txt"]
 
 
-def test_a_new_file_has_the_permissions_of_the_umask(tmp_path, umask):
+@pytest.mark.parametrize("mask", [0o077, 0o027, 0o002])
+def test_a_new_file_has_the_permissions_of_the_umask(tmp_path, umask, mask):
+    os.umask(mask)
     write_text(tmp_path / "a", "x")
-    assert mode_of(tmp_path / "a") == 0o600
+    assert mode_of(tmp_path / "a") == 0o666 & ~mask
 
 
 def test_an_old_file_keeps_its_permissions(tmp_path, umask):
@@ -66,10 +68,10 @@ def test_a_pipe_is_written_through(tmp_path):
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
     read = []
-    reader = threading.Thread(target=lambda: read.append(pipe.read_text()))
+    reader = threading.Thread(target=lambda: read.append(pipe.read_text()), daemon=True)
     reader.start()
     write_text(pipe, "text")
-    reader.join()
+    reader.join(30)
     assert read == ["text"]
     assert stat.S_ISFIFO(pipe.stat().st_mode)
 
@@ -144,9 +146,9 @@ def test_what_a_killed_writer_leaves_is_known(tmp_path):
         pass
 
     path = tmp_path / "a.json"
-    with pytest.raises(Killed), pytest.MonkeyPatch.context() as patch:
+    with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Path, "unlink", lambda *_, **__: None)
-        with replacing(path):
+        with pytest.raises(Killed), replacing(path):
             raise Killed
     assert [str(left) for left in leftovers(path)] == [str(p) for p in tmp_path.iterdir()] != []
 

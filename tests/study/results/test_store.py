@@ -249,8 +249,8 @@ def test_a_death_at_any_moment_of_taking_up_failures_is_survived(tmp_path, monke
         rows = load(directory)["results"]
         with monkeypatch.context() as patch:
             kill_at_step(patch, steps)
-            # The lock that a death leaves behind is none: this process only lets go of it.
-            patch.setattr(store_module, "_locked", lambda *_: FileLock(directory / ".lock"))
+            # The making of the lock is no step, and the death of a process releases it.
+            patch.setattr(store_module, "_locked", lambda *_: FileLock(tmp_path / "none"))
             try:
                 Store(directory, TRIANGULATIONS, DESIGN)
                 finished = True
