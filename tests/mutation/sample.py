@@ -74,9 +74,11 @@ def operators():
 
 
 def annotated(source):
-    """Ranges of the annotations, in which a change changes nothing."""
-    nodes = ast.walk(ast.parse(source))
-    notes = [getattr(n, "annotation", None) or getattr(n, "returns", None) for n in nodes]
+    """Ranges of annotations and decorators, in which a change changes nothing that is computed."""
+    notes = []
+    for node in ast.walk(ast.parse(source)):
+        notes += [getattr(node, "annotation", None), getattr(node, "returns", None)]
+        notes += getattr(node, "decorator_list", [])
     return [
         ((n.lineno, n.col_offset), (n.end_lineno, n.end_col_offset)) for n in notes if n is not None
     ]
