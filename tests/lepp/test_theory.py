@@ -124,7 +124,7 @@ def test_counts_are_values():
         made + counts
 
 
-@pytest.mark.parametrize("counts", [[[1, 2]], [1.0, 2.0], [3, -1], [True]])
+@pytest.mark.parametrize("counts", [3, [[1, 2]], [1.0, 2.0], [3, -1], [True]])
 def test_what_is_no_counts_is_refused(counts):
     with pytest.raises(ValueError, match="one-dimensional array of integers of at least 0"):
         lepp.LeppCounts(np.array(counts))

@@ -1,4 +1,4 @@
-"""The in-circle predicate where coordinates are small integers but for the last bit of one."""
+"""In-circle where coordinates are small integers but for a last bit, and where one term is most."""
 
 from fractions import Fraction
 
@@ -38,6 +38,26 @@ def test_a_last_bit_is_not_lost(numbers, scale):
             assert in_circle(*moved, 0.0, 0.0) == expected
             assert in_circle(*moved[2:], *moved[:2], 0.0, 0.0) == expected  # b, c, a
             assert in_circle(*moved[2:4], *moved[:2], *moved[4:], 0.0, 0.0) == -expected
+
+
+#: b and c almost in a line with (0, 0), the fourth point: rounding turns the sign, by 0.05 EPSILON
+#: of a's term of the permanent, which is 0.997 of all of it.
+IN_LINE = [
+    float.fromhex(x)
+    for x in (
+        "0x1.29cbcc71bc7a0p-4", "0x1.e3ee95a706c10p-1", "0x1.861109701a800p-11",
+        "0x1.3059e67933c00p-10", "0x1.6c71c9d7b0200p-10", "0x1.1cbc459e15e00p-9",
+    )
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("scale", [1.0, 2.0**-60, 2.0**60])
+def test_each_term_of_the_permanent_counts(scale):
+    a, b, c = (np.array(IN_LINE).reshape(3, 2) * scale).tolist()
+    inside = sign_of_circle([*a, *b, *c])
+    for first, second, third in ((a, b, c), (b, c, a), (c, a, b)):
+        assert in_circle(*first, *second, *third, 0.0, 0.0) == inside
+        assert in_circle(*second, *first, *third, 0.0, 0.0) == -inside
 
 
 @pytest.mark.parametrize("scale", [1.0, -1.0, 2.0**-200, 2.0**300, 2.0**-600, 2.0**600])
