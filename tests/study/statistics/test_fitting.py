@@ -208,6 +208,20 @@ def test_exponents_are_recovered(b):
 
 
 @pytest.mark.parametrize(
+    ("b", "shows"), [(0.0019, False), (0.0021, True), (4.95, True), (5.05, False)]
+)
+def test_exponents_near_the_ends_of_what_is_looked_at_are_refused(b, shows):
+    # half of the greatest, and twice the least
+    groups = made(lambda x: 3.1 - 0.4 * x**-b, noise=0, sizes=SIZES // 10)
+    seen = Observations.of(groups, False)
+    if shows:
+        assert fit_saturating(SATURATING, seen).coefficients[2] == pytest.approx(b, rel=1e-3)
+    else:
+        with pytest.raises(NotEnough, match="show no saturation"):
+            fit_saturating(SATURATING, seen)
+
+
+@pytest.mark.parametrize(
     "curve", [lambda x: 3 + 1e-3 * x, lambda x: 3.1 - 1e9 * x**-9.0, lambda x: 3.1 + 0.1 * (x > 10)]
 )
 def test_no_saturation(curve):
