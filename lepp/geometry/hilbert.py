@@ -110,13 +110,13 @@ def hilbert_key(x, y):
     x, y : int
         Column and row, below 2**16.
     """
-    step = _STEPS[((x >> 12) << 4) | (y >> 12)]
+    step = np.int64(_STEPS[((x >> 12) << 4) | (y >> 12)])
     key = step & 0xFF
-    step = _STEPS[(step & 0x300) | (((x >> 8) & 15) << 4) | ((y >> 8) & 15)]
+    step = np.int64(_STEPS[(step & 0x300) | (((x >> 8) & 15) << 4) | ((y >> 8) & 15)])
     key = (key << 8) | (step & 0xFF)
-    step = _STEPS[(step & 0x300) | (((x >> 4) & 15) << 4) | ((y >> 4) & 15)]
+    step = np.int64(_STEPS[(step & 0x300) | (((x >> 4) & 15) << 4) | ((y >> 4) & 15)])
     key = (key << 8) | (step & 0xFF)
-    step = _STEPS[(step & 0x300) | ((x & 15) << 4) | (y & 15)]
+    step = np.int64(_STEPS[(step & 0x300) | ((x & 15) << 4) | (y & 15)])
     return (key << 8) | (step & 0xFF)
 
 

@@ -111,16 +111,17 @@ def lepp_paths(triangulation: Triangulation, *, equal_within: float = 0.0) -> Le
     n_equal = _n_equal(ranks)
     if n_equal:
         sizes, edges, ends = choose_edges(triangles, neighbors, ranks)
+        _checked(sizes)
         terminal_edges, regions = regions_of_edges(triangles, ends)
         successors = step_over(neighbors, edges)
     else:
         edges = single_edges(ranks)
         successors = step_over(neighbors, edges)
         ends = np.empty(len(successors), np.int32)
-        sizes = follow(successors, ends)
+        sizes = _checked(follow(successors, ends))  # only then are all ends known
         terminal_edges, regions = regions_of_triangles(triangles, edges, ends)
     return LeppPaths(
-        _checked(sizes),
+        sizes,
         successors,
         neighbor_types(neighbors, successors, ranks),
         terminal_edges,

@@ -1,0 +1,222 @@
+"""Mutation testing by a seeded sample: change one thing in the code, and see whether a test fails.
+
+The changes are cosmic-ray's operators, made in a copy of the tree. The tests of each change run in
+a fork of a process that has all libraries loaded, with numba's compiler off: a second a change, not
+half a minute. From the root of the tree:
+
+    python tests/mutation/sample.py                         # every target, 60 changes each
+    python tests/mutation/sample.py judging --number 200 --seed 7
+
+Which files belong to a target, and which tests, stands in targets.toml; which survivors are known
+to be harmless, and why, in survivors.md. Exits with 1 if a target's tests fail as the code stands.
+"""
+
+import argparse
+import ast
+import difflib
+import os
+import random
+import resource
+import shutil
+import signal
+import sys
+import tempfile
+import time
+import tomllib
+from collections import defaultdict
+from dataclasses import dataclass
+from pathlib import Path
+
+os.environ["NUMBA_DISABLE_JIT"] = "1"
+
+ROOT = Path(__file__).parents[2]
+TARGETS = Path(__file__).with_name("targets.toml")
+LIBRARIES = (
+    "numpy", "numba", "pytest", "hypothesis", "scipy.optimize", "scipy.stats", "scipy.interpolate",
+    "pandas", "pydantic", "statsmodels.api", "statsmodels.stats.oneway",
+)  # fmt: skip
+#: cosmic-ray's operators that make a plausible slip of the pen. The others (an identity test of
+#: numbers, a shift of floats, a kernel without its decorator) are noticed by any call, or by none.
+SLIPS = {
+    "arithmetic": "Add_Sub Add_Mul Sub_Add Mul_Add Mul_Div Div_Mul FloorDiv_Mul Mod_FloorDiv "
+    "Mod_Mul Pow_Mul RShift_LShift LShift_RShift BitOr_BitAnd BitOr_BitXor BitAnd_BitOr "
+    "BitXor_BitOr",
+    "comparison": "Eq_NotEq Eq_LtE Eq_GtE NotEq_Eq NotEq_Lt NotEq_Gt Lt_LtE Lt_GtE LtE_Lt LtE_Gt "
+    "Gt_GtE Gt_LtE GtE_Gt GtE_Lt Is_IsNot IsNot_Is",
+    "unary": "USub_UAdd Delete_USub Delete_Not",
+    "other": "AddNot ReplaceTrueWithFalse ReplaceFalseWithTrue ReplaceAndWithOr ReplaceOrWithAnd "
+    "ReplaceBreakWithContinue ReplaceContinueWithBreak ExceptionReplacer NumberReplacer "
+    "ZeroIterationForLoop",
+}
+PREFIX = {"arithmetic": "ReplaceBinaryOperator_", "comparison": "ReplaceComparisonOperator_",
+          "unary": "ReplaceUnaryOperator_", "other": ""}  # fmt: skip
+MEMORY = 6 << 30  # bytes: a change may make an array without end
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """One change of one file."""
+
+    file: str
+    line: int
+    operator: str
+    code: str
+    diff: str
+
+
+def operators():
+    """Names and operators, in a fixed order."""
+    from cosmic_ray.plugins import get_operator
+
+    for kind, names in SLIPS.items():
+        for name in names.split():
+            yield name, get_operator(f"core/{PREFIX[kind]}{name}")()
+
+
+def annotated(source):
+    """Ranges of annotations and decorators, in which a change changes nothing that is computed."""
+    notes = []
+    for node in ast.walk(ast.parse(source)):
+        notes += [getattr(node, "annotation", None), getattr(node, "returns", None)]
+        notes += getattr(node, "decorator_list", [])
+    return [
+        ((n.lineno, n.col_offset), (n.end_lineno, n.end_col_offset)) for n in notes if n is not None
+    ]
+
+
+def places(file, source):
+    """Changes that can be made, by the place where: (operator, its name, occurrence)."""
+    from cosmic_ray.ast import ast_nodes, get_ast
+
+    tree, notes = get_ast(source), annotated(source)
+    found = defaultdict(list)
+    for name, operator in operators():
+        spots = (spot for node in ast_nodes(tree) for spot in operator.mutation_positions(node))
+        for occurrence, (start, *_) in enumerate(spots):
+            if not any(low <= start < high for low, high in notes):
+                found[file, start].append((name, operator, occurrence))
+    return found
+
+
+def sample(files, number, rng):
+    """Draw mutants: places without replacement, then one of the changes of each; again if few."""
+    from cosmic_ray.mutating import mutate_code
+
+    sources = {str(file.relative_to(ROOT)): file.read_text() for file in files}
+    by_place = {}
+    for file, source in sources.items():
+        by_place |= places(file, source)
+    for choices in by_place.values():
+        rng.shuffle(choices)
+    drawn, seen = [], set()
+    while by_place and len(drawn) < number:
+        order = list(by_place)
+        rng.shuffle(order)
+        for file, start in order:
+            choices = by_place[file, start]
+            name, operator, occurrence = choices.pop()
+            if not choices:
+                del by_place[file, start]
+            code = mutate_code(sources[file], operator, occurrence)
+            if code is None or code in seen:
+                continue
+            seen.add(code)
+            lines = difflib.unified_diff(sources[file].split("\n"), code.split("\n"), n=0)
+            diff = "\n".join(line for line in lines if line[:3] not in ("---", "+++", "@@ "))
+            drawn.append(Mutant(file, start[0], name, code, diff))
+            if len(drawn) == number:
+                break
+    return drawn
+
+
+def run_tests(tree, arguments, limit, output=os.devnull):
+    """Run pytest in a fork: its exit code, or None after `limit` seconds."""
+    child = os.fork()
+    if child == 0:
+        os.setsid()
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        sink = os.open(output, os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+        os.dup2(sink, 1)
+        os.dup2(sink, 2)
+        code = 99
+        try:
+            import pytest
+
+            os.chdir(tree)
+            sys.path.insert(0, str(tree))
+            code = int(pytest.main(arguments))
+        finally:
+            os._exit(code)
+    deadline = time.monotonic() + limit
+    while time.monotonic() < deadline:
+        done, status = os.waitpid(child, os.WNOHANG)
+        if done:
+            return os.waitstatus_to_exitcode(status)
+        time.sleep(0.01)
+    os.killpg(child, signal.SIGKILL)
+    os.waitpid(child, 0)
+    return None
+
+
+def examine(name, target, number, seed, tree):
+    """Run the tests of a sample of mutants; print the survivors; return (killed, tried)."""
+    arguments = [
+        *target["tests"], *target.get("options", ()), "-x", "-q", "--tb=short", "-W", "ignore",
+        "-p", "no:cacheprovider", "--hypothesis-profile=mutation",
+    ]  # fmt: skip
+    begin = time.monotonic()
+    log = str(tree / "tests.log")
+    if run_tests(tree, arguments, 600, log) != 0:
+        print(Path(log).read_text())
+        sys.exit(f"{name}: the tests fail as the code stands")
+    limit = 10 + 5 * (time.monotonic() - begin)
+    files = sorted(file for pattern in target["files"] for file in ROOT.glob(pattern))
+    mutants = sample(files, number, random.Random(f"{seed} {name}"))
+    killed = defaultdict(lambda: [0, 0])
+    for mutant in mutants:
+        place = tree / mutant.file
+        before = place.read_text()
+        place.write_text(mutant.code)
+        survived = run_tests(tree, arguments, limit) == 0
+        place.write_text(before)
+        killed[mutant.file][0] += not survived
+        killed[mutant.file][1] += 1
+        if survived:
+            print(f"\nsurvived: {mutant.file}:{mutant.line} {mutant.operator}\n{mutant.diff}")
+            sys.stdout.flush()
+    for file, (dead, tried) in sorted(killed.items()):
+        print(f"{name}: {file}: {dead} of {tried} killed")
+    sys.stdout.flush()
+    return sum(dead for dead, _ in killed.values()), len(mutants)
+
+
+def main():
+    """Examine the targets named, or all."""
+    targets = tomllib.loads(TARGETS.read_text())
+    parser = argparse.ArgumentParser(description="Mutation testing by a seeded sample.")
+    parser.add_argument("targets", nargs="*", help=f"of {', '.join(targets)}; all if none is named")
+    parser.add_argument("--number", type=int, default=60, help="changes a target")
+    parser.add_argument("--seed", type=int, default=1)
+    chosen = parser.parse_args()
+    unknown = set(chosen.targets) - set(targets)
+    if unknown:
+        parser.error(f"no target {', '.join(sorted(unknown))}; there are {', '.join(targets)}")
+    sys.dont_write_bytecode = True  # a stale one would stand for a change
+    for library in LIBRARIES:
+        __import__(library)
+    total = total_killed = 0
+    with tempfile.TemporaryDirectory() as folder:
+        tree = Path(folder)
+        skipped = shutil.ignore_patterns("__pycache__", "*.png", ".*")
+        for part in ("lepp", "study", "reports", "tests"):
+            shutil.copytree(ROOT / part, tree / part, ignore=skipped)
+        shutil.copy(ROOT / "pyproject.toml", tree)
+        for name in chosen.targets or targets:
+            killed, tried = examine(name, targets[name], chosen.number, chosen.seed, tree)
+            total, total_killed = total + tried, total_killed + killed
+    print(f"{total_killed} of {total} killed ({total_killed / max(total, 1):.0%})")
+
+
+if __name__ == "__main__":
+    main()
