@@ -7,9 +7,10 @@ import pandas as pd
 import pytest
 from scipy import stats
 
-from study.analysis.measurements import NotEnough
-from study.analysis.table import Column, Table
+from study.analysis.building import Study
+from study.analysis.table import Column, Table, Tables
 from study.paper import statements as module
+from study.statistics.groups import NotEnough
 
 ASKED = module._ASKED
 JUST = 1e-9
@@ -18,7 +19,11 @@ JUST = 1e-9
 def judged(part, **frames):
     """The verdict on the one statement that has these words, and what was measured."""
     (judge,) = [judge for _, statement, judge in ASKED if part in statement]
-    return judge({name: pd.DataFrame(rows) for name, rows in frames.items()})
+    population = {"method": "plain", "distribution": "uniform"}
+    made = (
+        table_of(name, pd.DataFrame(rows).assign(**population)) for name, rows in frames.items()
+    )
+    return judge(module._Tables(Tables(made), **population))
 
 
 def lacking(part, **frames):
@@ -135,6 +140,8 @@ PREMISE = "The probability p of a type C neighbour is at least 1/3"
         (["undecided", "undecided"], "undecided"),
         (["yes", "undecided"], "undecided"),
         (["undecided", "yes"], "undecided"),
+        (["undecided", "no"], "no"),
+        (["no", "yes"], "no"),
     ],
 )
 def test_premise(verdicts, holds):
@@ -362,7 +369,8 @@ def test_statements_are_judged_for_each_population_by_its_rows():
     tables = {name: table_of(name, frame) for name, frame in empty.items()}
     tables |= {"theorem_2": premises, "overall": table_of("overall", [{"numbers": 1}])}
     populations = [tuple(of.values()) for of in (of_a, of_b, of_c)]
-    table = module.statements(SimpleNamespace(populations=populations), tables)
+    study = Study(SimpleNamespace(populations=populations), Tables(tables.values()))
+    (table,) = module.statements.make(study)
     frame = table.frame
     assert len(frame) == 3 * len(ASKED)
     assert set(zip(frame["method"], frame["distribution"], strict=True)) == set(populations)
@@ -376,7 +384,7 @@ def test_statements_are_judged_for_each_population_by_its_rows():
 
 
 def test_the_note_says_by_what_it_is_judged():
-    note = module.statements(SimpleNamespace(populations=[]), {}).note
+    note = module.STATEMENTS.note
     for words in ("against 0.3333", "at least 10,000 paths", "at 0.05", "AIC above 10 "):
         assert words in note
 

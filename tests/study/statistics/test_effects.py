@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from study.analysis.games_howell import games_howell
-from study.analysis.measurements import Groups
-from study.analysis.variance import population_share
+from study.statistics.effect_size import population_share
+from study.statistics.games_howell import games_howell
+from study.statistics.groups import Groups
 from study.statistics.studentized_range import studentized_range_tail
 
 MEANS = np.linspace(0, 3, 6)

@@ -5,13 +5,13 @@ import pytest
 from scipy import optimize, stats
 from statsmodels.regression.linear_model import OLS, WLS
 
-from study.analysis.measurements import Groups, NotEnough
 from study.statistics.fitting import (
     Observations,
     fit_linear,
     fit_saturating,
     leave_one_group_out,
 )
+from study.statistics.groups import Groups, NotEnough
 from study.statistics.models import LINEAR_MODELS, SATURATING
 
 LINEAR, QUADRATIC, LOGISTIC, LOGARITHMIC = LINEAR_MODELS
