@@ -58,6 +58,8 @@ OVERVIEW = Declaration(
         Column("points", "Points", "points", "int"),
         Column("repeated_points", "Repeated points left out", "points", "int"),
         Column("triangles", "Triangles", "triangles", "int"),
+        Column("equal_longest", "With equal longest edges", "triangles", "int"),
+        Column("nearly_equal_longest", "With nearly equal longest edges", "triangles", "int"),
         Column("lowest_group_mean", "Lowest group mean", "triangles", "fixed4"),
         Column("highest_group_mean", "Highest group mean", "triangles", "fixed4"),
         Column("max_lepp", "Largest LEPP", "triangles", "int"),
@@ -125,6 +127,8 @@ def overview(study: Study) -> Iterator[Row]:
             "points": int(done["n_points"].sum()),
             "repeated_points": int(done["n_repeated"].sum()),
             "triangles": int(done["n_triangles"].sum()),
+            "equal_longest": int(done["n_equal_longest"].sum()),
+            "nearly_equal_longest": int(done["n_nearly_equal_longest"].sum()),
         }
         if len(done):
             row |= {

@@ -130,7 +130,7 @@ class Fit:
         n, k = len(z), len(self.coefficients)
         residual = float(w @ (z - fitted) ** 2)
         total = float(w @ (z - np.average(z, weights=w)) ** 2)
-        f = (total - residual) / (k - 1) / (residual / (n - k))
+        f = max(total - residual, 0.0) / (k - 1) / (residual / (n - k))
         return {
             "adj_r2": 1 - residual / (n - k) / (total / (n - 1)),
             "f": f,

@@ -1,15 +1,17 @@
 """How it was made: design, seed, versions, and what did not work out."""
 
+import math
 from itertools import pairwise
 
-from lepp import METHODS
+from lepp import METHODS, NEARLY_EQUAL
 from reports.page.blocks import Facts, Section, Subsection, TableBlock, common
 from reports.page.evidence import Evidence
 from reports.page.views import distribution_word
 from reports.study_page.tables import FAILURES
-from reports.text.numbers import count, listed
+from reports.text.numbers import count, large, listed, ten_to
 from study.analysis.analyse import MISSING
 from study.analysis.group_summaries import OVERVIEW
+from study.analysis.table import Rows
 
 
 def section(evidence: Evidence) -> Section:
@@ -68,7 +70,7 @@ def _completeness(evidence: Evidence) -> tuple:
         else ""
     )
     blocks: list = [
-        common(sentence + left_out),
+        common(sentence + left_out, _ties(overview)),
         TableBlock(OVERVIEW, "The study at a glance", follows=()),
     ]
     if not evidence.rows(MISSING).empty:
@@ -76,6 +78,19 @@ def _completeness(evidence: Evidence) -> tuple:
     if not evidence.rows(FAILURES).empty:
         blocks.append(TableBlock(FAILURES, "Tasks that failed", follows=()))
     return tuple(blocks)
+
+
+def _ties(overview: Rows) -> str:
+    """Say how many triangles have several longest edges, on which the choice of a path hangs."""
+    equal, nearly, triangles = (
+        int(overview[c].sum()) for c in ("equal_longest", "nearly_equal_longest", "triangles")
+    )
+    some = "No triangle has" if equal == 0 else f"{count(equal, 'triangle has', 'triangles have')}"
+    return (
+        f"{some} longest edges of exactly equal length, and {nearly:,} of {large(triangles)} have "
+        f"two that agree to {ten_to(round(math.log10(NEARLY_EQUAL)))} of their length: lengths are "
+        "compared exactly, and where they are equal a path takes the shortest way."
+    )
 
 
 def _environments(evidence: Evidence) -> tuple:

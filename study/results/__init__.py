@@ -1,0 +1,1 @@
+"""The results directory: what is in it, and how it survives."""
