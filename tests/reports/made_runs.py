@@ -156,6 +156,7 @@ CHANGES: dict[str, dict[str, Callable]] = {
     },
     "mixed Theorem 1": {"results": moments(mean_lepp=1.05, sd_lepp=0.9)},
     "straight": {"results": with_means(lambda n: 3.0 + n / 1e5 + 5e-4 * np.cos(n))},
+    "upwards": {"results": with_means(lambda n: 3.0 + 0.01 * (n / 8000) ** 2)},
     "bent": {"results": with_means(lambda n: 3.1 - 0.05 * np.cos(n / 1500))},
     "poor points": {"point_sets": poor_points},
 }

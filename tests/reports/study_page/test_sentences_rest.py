@@ -12,6 +12,7 @@ from page_text import PageText, drawn, page_text
 from scipy import stats
 
 from reports.study_page import sections
+from reports.study_page.sections import methods
 from study.paper import published
 
 ONE = DESIGN.model_copy(update={"methods": ("incremental",)})
@@ -45,6 +46,13 @@ def test_methods_on_the_same_points(name):
         assert min(shares) > 1 / 3
         assert "above the 1/3 that Theorem 2 supposes" in said
         assert "below" not in said
+
+
+def test_premise_of_methods_at_the_limit():
+    third = 1 / 3
+    assert "above the 1/3" in methods.premise({"incremental": third, "delaunay": 0.4})
+    both = methods.premise({"incremental": 0.2, "delaunay": np.nextafter(third, 0)})
+    assert both.startswith("Those of the incremental and Delaunay triangulations are below the 1/3")
 
 
 def one_grows(results):
