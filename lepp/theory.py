@@ -6,10 +6,14 @@ the path, with the same probability p: the sizes from 2 on then follow a geometr
 out the triangles whose longest edge is on the boundary.
 """
 
+from fractions import Fraction
+
 import numpy as np
 
 LEAST_P = 1.0 / 3.0
 """The least chance p that a step ends the path, which Theorem 2 supposes."""
+LEAST_P_TEXT = str(Fraction(LEAST_P).limit_denominator(100))
+"""The same as a reader sees it."""
 
 
 def mean(p: float) -> float:

@@ -8,6 +8,7 @@ shortest that they give; so sizes do not depend on how the mesh is numbered.
 """
 
 from dataclasses import dataclass
+from numbers import Real
 
 import numpy as np
 
@@ -40,7 +41,9 @@ class LeppPaths:
         Which terminal edge the path of each triangle ends at.
     n_equal : int
         Triangles with more than one longest edge; their successor is, of those that give the
-        shortest path, the one across the edge with the largest vertex numbers.
+        shortest path, one across a terminal edge, and else across the edge with the largest vertex
+        numbers. So sizes, and who is of type C, do not depend on how the mesh is numbered; the
+        other types, successors and regions can.
     n_nearly_equal : int
         Triangles whose two longest edges agree to a relative `lepp.NEARLY_EQUAL`: in a mesh whose
         coordinates are rounded, equal edges that rounding has made different are among them.
@@ -140,7 +143,7 @@ def _check_type(triangulation: object) -> None:
 
 
 def _ranks(triangulation: Triangulation, equal_within: float) -> np.ndarray:
-    if not 0.0 <= equal_within < 1.0:
+    if not (isinstance(equal_within, Real) and 0.0 <= equal_within < 1.0):
         raise InputError(
             f"equal_within is {equal_within!r}: give a share of a length, at least 0 and below 1."
         )

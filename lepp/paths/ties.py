@@ -25,7 +25,8 @@ def choose_edges(triangles, neighbors, ranks):
     sizes : (m,) int32 ndarray
         Empty if a path does not end.
     edges : (m,) uint8 ndarray
-        Of several that give the smallest size, the one with the largest vertex numbers.
+        Of several that give the smallest size a terminal one, if there is one; of several of these
+        the one with the largest vertex numbers.
     ends : (m,) int32 ndarray
         The terminal edge of each path: 3 t + k for edge k of triangle t, the first at that edge.
     """
@@ -62,11 +63,13 @@ def _best_way(triangles, neighbors, ranks, sizes, ends, t):
         A neighbour whose size has to be known before; -1 if there is none.
     """
     best, best_edge, best_end = 0, 0, 0
+    best_cost = 0
     best_low, best_high = -1, -1
     for k in range(3):
         if not (ranks[t] >> k) & 1:
             continue
         s = neighbors[t, k]
+        terminal = True
         if s < 0:
             size, end = 1, 3 * t + k
         else:
@@ -74,13 +77,14 @@ def _best_way(triangles, neighbors, ranks, sizes, ends, t):
             if (ranks[s] >> back) & 1:
                 size, end = 2, min(3 * t + k, 3 * s + back)
             elif sizes[s] > 0:
-                size, end = sizes[s] + 1, ends[s]
+                size, end, terminal = sizes[s] + 1, ends[s], False
             else:
                 return 0, 0, 0, s
         a, b = triangles[t, (k + 1) % 3], triangles[t, (k + 2) % 3]
         low, high = min(a, b), max(a, b)
         follows = low > best_low or (low == best_low and high > best_high)
-        if best == 0 or size < best or (size == best and follows):
-            best, best_edge, best_end = size, k, end
+        cost = 2 * size - terminal
+        if best == 0 or cost < best_cost or (cost == best_cost and follows):
+            best, best_edge, best_end, best_cost = size, k, end, cost
             best_low, best_high = low, high
     return best, best_edge, best_end, -1

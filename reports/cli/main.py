@@ -5,6 +5,9 @@ Everything heavy is imported inside the commands, so that ``--help`` answers at 
 
 from __future__ import annotations
 
+import errno
+import os
+import sys
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -30,6 +33,12 @@ class Commands(click.Group):
         except KeyboardInterrupt:
             click.echo("Stopped.", err=True)
             ctx.exit(EXIT_INTERRUPTED)
+        except OSError as error:
+            if error.errno not in (errno.ENOSPC, errno.EDQUOT):
+                raise
+            click.echo(f"Error: Cannot write the output: {error.strerror}.", err=True)
+            sys.stdout = open(os.devnull, "w")  # noqa: SIM115 - what is left is not to be flushed
+            ctx.exit(EXIT_BAD_INPUT)
         except ValueError as error:
             from lepp import InputError
 

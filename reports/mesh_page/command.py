@@ -7,9 +7,9 @@ from pathlib import Path
 
 import lepp
 from reports.mesh_page import findings
+from reports.mesh_page.console import print_survey
 from reports.mesh_page.page import render
 from reports.mesh_page.remedies import refusal
-from reports.mesh_page.terminal import print_survey
 from study.meshes.as_json import as_json
 from study.meshes.read import ReadOptions, read_mesh
 from study.meshes.survey import Survey, survey

@@ -6,6 +6,7 @@ import numpy as np
 
 import lepp
 from lepp.errors import listed
+from lepp.theory import LEAST_P_TEXT
 from reports.page.blocks import Tile
 from reports.text.numbers import count, show
 from study.meshes.near_points import NEAR
@@ -80,7 +81,8 @@ def ties(survey: Survey) -> str:
     )
     shortest = (
         " Where there are several longest edges, the path is the shortest of those that they give, "
-        "so that no number depends on how the mesh is numbered."
+        "so that no size depends on how the mesh is numbered; to which region a triangle belongs "
+        "can."
         if paths.n_equal
         else ""
     )
@@ -179,9 +181,9 @@ def _theorem_2(counts: lepp.LeppCounts, p: float) -> str:
     link = "and" if met == kept else "but"
     hold = f"{'hold' if kept else 'do not hold'}{' all the same' if kept and not met else ''}"
     return (
-        f"The premise of Theorem 2, a share of at least 1/3, {premise}, {link} its bounds (a mean "
-        f"from {least:g} to {most:g}, a standard deviation of at most {show(most_sd, 'fixed2')}) "
-        f"{hold}."
+        f"The premise of Theorem 2, a share of at least {LEAST_P_TEXT}, {premise}, {link} its "
+        f"bounds (a mean from {least:g} to {most:g}, a standard deviation of at most "
+        f"{show(most_sd, 'fixed2')}) {hold}."
     )
 
 
@@ -221,7 +223,7 @@ def tiles(survey: Survey) -> list[Tile]:
         Tile(
             show(survey.p, "fixed3"),
             "Neighbours of type C",
-            "of all across longest edges; Theorem 2 takes at least 1/3",
+            f"of all across longest edges; Theorem 2 takes at least {LEAST_P_TEXT}",
         ),
     ]
 

@@ -1,6 +1,6 @@
 """Words and signs that texts of the report share."""
 
-from study.analysis.theorems import LEAST_P_TEXT
+from lepp.theory import LEAST_P_TEXT
 from study.paper.judging import AGREES, CLOSE, DIFFERS, IMPLAUSIBLE, PLAUSIBLE
 from study.statistics.thresholds import CONFIDENCE
 from study.statistics.verdicts import NO, YES

@@ -5,21 +5,19 @@ type C, so that sizes have a geometric law; Theorem 2 adds p >= 1/3.
 """
 
 from collections.abc import Iterator
-from fractions import Fraction
 
 import pandas as pd
 
 from lepp import theory
-from lepp.theory import LEAST_P
+from lepp.theory import LEAST_P, LEAST_P_TEXT
 from study.analysis.building import Population, rows_by_population
 from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Declaration, Row
 from study.statistics.intervals import at_least, mean_interval
 from study.statistics.thresholds import LEVEL
 from study.statistics.verdicts import yes
 
-#: Theorem 2's premise and bounds, as numbers and as texts show them.
+#: Theorem 2's bounds.
 (LEAST_MEAN, MOST_MEAN), (LEAST_SD, MOST_SD) = theory.bounds(LEAST_P)
-LEAST_P_TEXT = str(Fraction(LEAST_P).limit_denominator(100))
 
 #: The moments of Theorem 1, in its order.
 MEAN, SD, SKEWNESS, KURTOSIS = STATISTICS = (

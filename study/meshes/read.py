@@ -97,7 +97,8 @@ def read_mesh(path: Path, options: ReadOptions = ReadOptions()) -> ReadMesh:
     notes = _cell_notes(contents)
     if stl:
         notes.insert(
-            0, "An STL file repeats every point for each triangle: equal ones were joined."
+            0,
+            "An STL file repeats every point for each triangle: points that are equal are joined.",
         )
     merge = options.repeated_points
     if options.merge_within is not None:

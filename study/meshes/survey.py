@@ -57,7 +57,7 @@ class Survey:
         """The mean LEPP size if lengths that agree to `lepp.NEARLY_EQUAL` count as equal."""
         if self.equal_within >= lepp.NEARLY_EQUAL:
             return self.counts.mean
-        if self.equal_within == 0.0 and self.paths.n_nearly_equal == self.paths.n_equal:
+        if self.paths.n_nearly_equal == 0:
             return self.counts.mean
         sizes = lepp.lepp_sizes(self.triangulation, equal_within=lepp.NEARLY_EQUAL)
         return lepp.LeppCounts.from_sizes(sizes).mean

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 from scipy import stats
 
-from lepp.theory import LEAST_P
+from lepp.theory import LEAST_P, LEAST_P_TEXT
 from study.analysis.bound_tests import BOUNDS
 from study.analysis.building import Study, rows_of
 from study.analysis.group_assumptions import CENTERS, LEVENE, SHAPIRO
@@ -27,7 +27,6 @@ from study.analysis.table import (
 from study.analysis.theorems import (
     KURTOSIS,
     LEAST_MEAN,
-    LEAST_P_TEXT,
     MEAN,
     MOST_MEAN,
     MOST_SD,

@@ -73,7 +73,8 @@ class Paths:
 
     An edge is a longest one unless another is longer by more than `within` of its length; a path
     goes on only to a triangle whose longest edge is longer (by more than that) than the one
-    crossed; of several ways it takes the shortest, of equal ones that by the largest vertices.
+    crossed; of several ways it takes the shortest, of equally short ones one across a terminal
+    edge, and of these that by the largest vertices.
     """
 
     def __init__(self, points, triangles, within=0):
@@ -112,7 +113,7 @@ class Paths:
             ways = [(*self.way(t, edge), edge) for edge in self.longest(t)]
             shortest = min(len(steps) for steps, *_ in ways)
             steps, terminal, edge = max(
-                (w for w in ways if len(w[0]) == shortest), key=lambda w: w[2]
+                (w for w in ways if len(w[0]) == shortest), key=lambda w: (w[1] == w[2], w[2])
             )
             self.found[t] = ([t, *steps], terminal, edge)
         return self.found[t][:2]

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from lepp import METHODS
-from lepp.theory import LEAST_P
+from lepp.theory import LEAST_P, LEAST_P_TEXT
 from reports.page import style
 from reports.page.blocks import FigureBlock, Prose, Section, Subsection, TableBlock
 from reports.page.evidence import Evidence
@@ -17,7 +17,7 @@ from study.analysis.group_summaries import GROUPS
 from study.analysis.method_comparison import GROWTH, MEAN_LEPP, METHODS_COMPARED, SHARE_P
 from study.analysis.path_lengths import LAW, TERMINATION
 from study.analysis.table import DISTRIBUTION, Declaration, Rows
-from study.analysis.theorems import LEAST_P_TEXT, THEOREM_2
+from study.analysis.theorems import THEOREM_2
 from study.paper.published import REFERENCE_METHOD
 
 

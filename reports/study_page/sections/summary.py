@@ -2,6 +2,7 @@
 
 import pandas as pd
 
+from lepp.theory import LEAST_P_TEXT
 from reports.page.blocks import (
     Drawing,
     Prose,
@@ -21,7 +22,7 @@ from reports.text.numbers import count, large, listed, show
 from reports.text.words import LEVEL, PREMISE
 from study.analysis.group_summaries import GROUPS, OVERVIEW
 from study.analysis.terminal_regions import REGIONS
-from study.analysis.theorems import LEAST_P_TEXT, MEAN, SD, THEOREM_1, THEOREM_2
+from study.analysis.theorems import MEAN, SD, THEOREM_1, THEOREM_2
 from study.analysis.variance_analysis import ANOVA, WELCH
 from study.paper.judging import AGREES, CLOSE, DIFFERS
 from study.paper.published import REFERENCE_METHOD

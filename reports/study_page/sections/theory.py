@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from lepp.theory import LEAST_P
+from lepp.theory import LEAST_P, LEAST_P_TEXT
 from reports.page import style
 from reports.page.blocks import FigureBlock, Prose, Section, Subsection, TableBlock, per_view
 from reports.page.evidence import Evidence
@@ -13,7 +13,6 @@ from reports.text.numbers import listed, show
 from reports.text.words import LEVEL, PREMISE
 from study.analysis.path_lengths import LAW, TERMINATION
 from study.analysis.theorems import (
-    LEAST_P_TEXT,
     MOST_SD,
     NEIGHBOR_TYPES,
     STATISTICS,

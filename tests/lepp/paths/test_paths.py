@@ -56,13 +56,16 @@ def test_paths_are_those_of_a_walk(points):
 def test_ties_have_the_reference_sizes_however_the_mesh_is_numbered(case):
     points, triangles = np.array(case["points"]), np.array(case["triangles"])
     rng = np.random.default_rng(len(points))
+    ends_at_once = set()
     for _ in range(4):
         mesh = lepp.Triangulation.from_arrays(points, triangles)
-        sizes = lepp.lepp_sizes(mesh, equal_within=case["equal_within"])
-        assert sizes.tolist() == case["sizes"]
+        paths = lepp.lepp_paths(mesh, equal_within=case["equal_within"])
+        assert paths.sizes.tolist() == case["sizes"]
+        ends_at_once.add(int(np.isin(paths.neighbor_types, (lepp.TYPE_NONE, lepp.TYPE_C)).sum()))
         check_against_twin(mesh, case["equal_within"])
         order = rng.permutation(len(points))
         points, triangles = points[order], np.argsort(order)[triangles]
+    assert len(ends_at_once) == 1
 
 
 @settings(max_examples=150, deadline=None)
@@ -103,7 +106,7 @@ def test_surface_of_equal_triangles_in_space():
     assert sizes.tolist() == np.where(boundary, 1, 2).tolist()
 
 
-@pytest.mark.parametrize("within", [-0.1, 1.0, np.nan, np.inf])
+@pytest.mark.parametrize("within", [-0.1, 1.0, np.nan, np.inf, "a", None, [0.1]])
 def test_equal_within_is_a_share(within):
     mesh = lepp.worst_case_strip(3)
     for of in (lepp.lepp_sizes, lepp.lepp_paths):

@@ -62,7 +62,7 @@ def test_formats(tmp_path, kind):
     assert len(mesh.triangulation) == len(SURFACE[1])
     if kind == "stl":  # single precision: other lengths, the same triangles
         assert mesh.triangulation.n_hull == 0
-        assert "equal ones were joined" in mesh.notes[0]
+        assert "points that are equal are joined" in mesh.notes[0]
     elif kind not in ("abaqus", "tecplot"):  # these keep fewer digits
         assert np.array_equal(lepp.lepp_sizes(mesh.triangulation), sizes_of(SURFACE))
 
