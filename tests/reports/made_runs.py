@@ -44,6 +44,13 @@ def with_shares(share_c: float) -> Callable:
     return change
 
 
+def falling_shares(results: Frame) -> Frame:
+    """Give large sets a share of type C below 1/3, small ones one above."""
+    large = results["n_points"] > 2000
+    high, low = (with_shares(share)(results) for share in (0.4, 0.3))
+    return high.where(~large, low)
+
+
 def level(n: np.ndarray) -> np.ndarray:
     return 3.05 + 0 * n
 
@@ -139,6 +146,7 @@ CHANGES: dict[str, dict[str, Callable]] = {
     "falling": {"results": with_means(falling), "regions": large_regions},
     "narrowing": {"results": with_means(growing, lambda n: 40 / n)},
     "widening": {"results": with_means(level, lambda n: n / 1e6)},
+    "p falls": {"results": falling_shares},
     "low p": {"results": with_shares(0.30), "histograms": histogram_of(LONG)},
     "high p": {"results": with_shares(0.50), "histograms": histogram_of(SHORT)},
     "rare long paths": {

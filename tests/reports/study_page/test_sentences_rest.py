@@ -138,6 +138,10 @@ def test_scoreboard_counts_what_agrees():
     assert "and 20 within 3" in wrong.finding("figure-means")
     far = paper_run(shift=6.0)
     assert "and 0 within 3; the largest" in far.finding("figure-means")
+    verdicts = wrong.evidence.tables["reproduction"].frame["verdict"].value_counts()
+    assert verdicts["close"] >= 20
+    met = verdicts["agrees"] + verdicts["close"]
+    assert wrong.tiles()["Published numbers met"][0] == f"{met} of {met + verdicts['differs']}"
     value, context = right.tiles()["Published numbers met"]
     agreeing = int(board["agrees"] + board.get("close", 0))
     assert value == f"{agreeing} of {judged}"

@@ -38,6 +38,10 @@ def test_premise_holds_or_fails_by_the_interval_of_p():
     assert f"p = {shares('low p').mean():.4f}" in page("low p").prose("types")
 
 
+def test_premise_that_fails_in_some_groups():
+    assert "p ≥ 1/3, fails in 2 of 4 groups." in page("p falls").prose("types")
+
+
 def test_broken_bounds_are_counted():
     assert "Its bounds are broken in 1 of 4 groups." in page("out of bounds").prose("types")
     said = page("out of bounds").prose("key-figures")
