@@ -26,7 +26,7 @@ class PageText:
 
     def prose(self, part: str, view: str = "incremental/uniform") -> str:
         """Paragraphs of a subsection."""
-        blocks = [block for block in self._part(part) if isinstance(block, Prose)]
+        blocks = [block for block in self.blocks(part) if isinstance(block, Prose)]
         paragraphs = [p for b in blocks for p in b.paragraphs.get(view, b.paragraphs.get("*", []))]
         return " ".join(map(str, paragraphs)).replace("\u00a0", " ")
 
@@ -42,11 +42,12 @@ class PageText:
 
     def tiles(self, view: str = "incremental/uniform") -> dict[str, tuple[str, str]]:
         """Value and context of the key figures by their labels."""
-        (block,) = (b for b in self._part("key-figures") if isinstance(b, Tiles))
+        (block,) = (b for b in self.blocks("key-figures") if isinstance(b, Tiles))
         texts = {tile.label: (tile.value, tile.context) for tile in block.tiles[view]}
         return {k: (v, c.replace("\u00a0", " ")) for k, (v, c) in texts.items()}
 
-    def _part(self, name: str) -> tuple:
+    def blocks(self, name: str) -> tuple:
+        """Blocks of a subsection."""
         for section in self.sections:
             for part in section.parts:
                 if part.id == name:

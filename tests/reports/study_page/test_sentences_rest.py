@@ -11,8 +11,10 @@ from made_runs import DESIGN, METHODS, page, run
 from page_text import PageText, drawn, page_text
 from scipy import stats
 
+from reports.page.blocks import TableBlock
 from reports.study_page import sections
 from reports.study_page.sections import methods
+from study.analysis.analyse import MISSING
 from study.paper import published
 
 ONE = DESIGN.model_copy(update={"methods": ("incremental",)})
@@ -240,3 +242,45 @@ def test_worst_case_and_points():
         "400 points of each distribution: the uniform ones fill the unit square."
     )
     assert "from 12 at the narrow end to 1." in said.finding("figure-2")
+
+
+def test_methods_are_introduced_the_papers_first():
+    assert (
+        page("drawn")
+        .prose("same-points")
+        .startswith(
+            "The incremental method, the paper's, inserts the points as they come and never flips "
+            "an edge; the Delaunay method makes triangles that are as far from thin as the points "
+            "allow. On the same"
+        )
+    )
+
+
+def test_many_alarms_are_cut_short():
+    one = design(
+        methods=("incremental",), distributions=("uniform", "exponential"), sizes=(1000,),
+        repetitions=1,
+    )  # fmt: skip
+    evidence = page_text(drawn(one)).evidence
+    missing = evidence.rows(MISSING).frame
+    alarms = sections.alarms(evidence)
+    reasons = missing[~missing["what"].str.contains("saturating")]
+    reasons = reasons[reasons["distribution"].isin(one.distributions)]["why"].nunique()
+    assert len(alarms) == min(6, reasons)
+    if reasons > 6:
+        assert alarms[-1] == f"{reasons - 5} more, listed under “How it was made”."
+
+
+def test_a_run_of_nothing_says_nothing():
+    def none(frame):
+        return frame.iloc[:0]
+
+    said = page_text(drawn(ONE, results=none, histograms=none, regions=none, point_sets=none))
+    assert said.prose("key-figures") == ""
+    assert said.prose("anova") == ""
+    assert said.prose("completeness").startswith("Of 32 triangulations, 0 were made")
+    captions = [b.caption for b in said.blocks("completeness") if isinstance(b, TableBlock)]
+    assert "What could not be computed, and why" in captions
+    whole = [b.caption for b in page("growing").blocks("completeness") if isinstance(b, TableBlock)]
+    missing = page("growing").evidence.rows(MISSING).empty
+    assert ("What could not be computed, and why" in whole) == (not missing)
