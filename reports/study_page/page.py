@@ -88,8 +88,12 @@ def write_tables(folder: Path, tables: Tables) -> None:
     """
     try:
         folder.mkdir(exist_ok=True)
+    except FileExistsError:
+        raise InputError(
+            f"Cannot write into {folder}: a file has that name; give it another one."
+        ) from None
     except OSError as error:
-        raise InputError(f"Cannot write {folder}: {error.strerror}.") from None
+        raise InputError(f"Cannot write into {folder}: {error.strerror}.") from None
     written = {f"{name}.csv" for name in tables}
     before = _listed(folder / _WRITTEN)
     # First, so that the list holds what is written even if this ends halfway.
