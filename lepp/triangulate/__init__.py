@@ -91,11 +91,11 @@ def triangulate(points: np.ndarray, method: str = "incremental") -> Triangulatio
     if method not in METHODS:
         raise InputError(f"There is no method {method!r}: use one of {', '.join(METHODS)}.")
     given, points = points, check_points(points)
-    if isinstance(given, np.ndarray) and np.may_share_memory(given, points):
-        points = points.copy()  # the ranks are those of these coordinates, whatever becomes of them
     triangles, neighbors, repeated, ranks = METHODS[method].build(points)
     if len(triangles) == 0:
         raise InputError("All points lie on one line: no triangle has an area.")
+    if isinstance(given, np.ndarray) and np.may_share_memory(given, points):
+        points = points.copy()  # the ranks are those of these coordinates, whatever becomes of them
     mesh = Triangulation(points, triangles, neighbors, repeated)
     object.__setattr__(mesh, "_edge_ranks", ranks)
     return mesh
