@@ -5,7 +5,7 @@ from itertools import permutations
 import numpy as np
 import pytest
 
-from lepp.geometry.lengths import LONGEST, SHORTEST_SHIFT, edge_ranks
+from lepp.geometry.lengths import LONGEST, SHORTEST_SHIFT, edge_ranks, is_certain
 
 #: With edges of 5, differences are taken as multiples of this where all are.
 UNIT = 2.0**-27
@@ -45,3 +45,17 @@ def test_equal_where_nothing_is_more():
     points = np.array([[0.0, UNIT / 4], [3.0, 4.0 + UNIT / 4], [5.0, UNIT / 4]])
     triangles = np.array([[0, 1, 2]], np.int32)
     assert edge_ranks(points, triangles)[0] & LONGEST == 0b110
+
+
+@pytest.mark.parametrize("scale", [2.0**-20, 1.0, 2.0**20])
+def test_certainty_does_not_depend_on_the_scale(scale):
+    assert not is_certain(scale, scale * (1 + 1e-15), 2 * scale)
+    assert is_certain(scale, scale * (1 + 4e-15), 2 * scale)
+
+
+@pytest.mark.parametrize(("within", "longest"), [(0.25, 2), (np.nextafter(0.25, 0), 1)])
+def test_an_edge_that_is_longer_by_just_the_tolerance_is_not_greater(within, longest):
+    points = np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]])
+    triangles = np.array([[0, 1, 2]], np.int32)
+    (rank,) = edge_ranks(points, triangles, equal_within=within)
+    assert int(rank & LONGEST).bit_count() == longest
