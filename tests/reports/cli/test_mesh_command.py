@@ -250,3 +250,21 @@ print(*(name for name in {heavy} if name in sys.modules))
     )  # fmt: skip
     assert done.stdout.endswith("Page: a.html\n\n")
     assert done.stderr == ""
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
+@pytest.mark.parametrize("options", [[], ["--json"]])
+def test_a_full_standard_output_is_one_sentence(options, tmp_path):
+    mesh = tmp_path / "mesh.off"
+    mesh.write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    code = "from reports.cli.main import main; main()"
+    with open("/dev/full", "w") as full:
+        done = subprocess.run(
+            [sys.executable, "-c", code, "mesh", str(mesh), *options],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+    assert done.returncode == 2
+    assert done.stderr == "Error: Cannot write the output: No space left on device.\n"
