@@ -22,7 +22,7 @@ from study.analysis import (
 from study.analysis.building import build
 from study.analysis.measurements import Measurements
 from study.analysis.table import DISTRIBUTION, METHOD, Column, Declaration, Tables
-from study.paper import reproduction, statements
+from study.paper import consistency, reproduction, runs_lattice, statements
 
 if TYPE_CHECKING:
     from study.design.design import Design
@@ -59,6 +59,8 @@ BUILDERS = (
     reproduction.reproduction,
     reproduction.summary,
     reproduction.overall,
+    consistency.consistency,
+    runs_lattice.runs_lattice,
     statements.statements,
 )
 

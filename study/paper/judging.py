@@ -6,14 +6,19 @@ import numpy as np
 from scipy import special, stats
 
 from study.paper.published import Number
-from study.statistics.thresholds import AGREES_UP_TO, CLOSE_UP_TO
+from study.statistics.thresholds import AGREES_UP_TO, CLOSE_UP_TO, TABLE_DIFFERS_BELOW
 
 AGREES, CLOSE, DIFFERS = "agrees", "close", "differs"
 PLAUSIBLE, IMPLAUSIBLE = "plausible draw", "implausible draw"
 MISPRINT, NOT_COMPARABLE, NOT_RUN = "misprint", "not comparable", "not run"
+#: Of a number that its own paper's other numbers allow.
+CONSISTENT = "consistent"
 VERDICTS = (
     AGREES, CLOSE, DIFFERS, PLAUSIBLE, IMPLAUSIBLE, MISPRINT, NOT_COMPARABLE, NOT_RUN,
 )  # fmt: skip
+
+#: Below this part of the error, half a unit of rounding does not count.
+_NO_ROUNDING = 1e-3
 
 RULE = (
     f"agrees: within {AGREES_UP_TO:g} standard errors (19 of 20 numbers do by chance); close: "
@@ -32,6 +37,7 @@ class Judgement:
     verdict: str
     rule: str
     log10_ratio: float = np.nan
+    chance_beyond: float = np.nan
 
 
 def within(difference: float) -> str:
@@ -42,13 +48,37 @@ def within(difference: float) -> str:
     return AGREES if size <= AGREES_UP_TO else CLOSE if size <= CLOSE_UP_TO else DIFFERS
 
 
-def _judgement(
-    ours: float, published: Number, error: float, rule: str, log10_ratio: float = np.nan
-) -> Judgement:
-    # A rounded number is off by up to half a unit, evenly: a variance of unit^2 / 12.
-    error = float(np.hypot(error, published.unit / np.sqrt(12)))
-    z = (ours - published.value) / error
-    return Judgement(ours, error, z, within(z), rule, log10_ratio)
+def chance_beyond(error: float, unit: float) -> float:
+    """Chance that an honest number is further off than what agrees.
+
+    A normal error and, beside it, the rounding: off by up to half a unit, evenly, which is a
+    variance of unit^2 / 12. Where the rounding is the larger, less lies beyond than of a normal.
+
+    Parameters
+    ----------
+    error : float
+        Standard deviation of the difference before rounding.
+    unit : float
+        One unit of the last printed digit, on the same scale.
+    """
+    if not error > 0:
+        return 0.0  # no rounding is off by two of its own standard deviations
+    limit = AGREES_UP_TO * np.hypot(error, unit / np.sqrt(12)) / error
+    half = unit / (2 * error)
+    if half < _NO_ROUNDING:
+        return float(2 * stats.norm.sf(limit))
+
+    def integral(x: float) -> float:  # of the normal's upper tail
+        return float(x * stats.norm.sf(x) - stats.norm.pdf(x))
+
+    return (integral(limit + half) - integral(limit - half)) / half
+
+
+def _judgement(ours: float, published: Number, error: float, rule: str) -> Judgement:
+    total = float(np.hypot(error, published.unit / np.sqrt(12)))
+    z = (ours - published.value) / total
+    chance = chance_beyond(error, published.unit)
+    return Judgement(ours, total, z, within(z), rule, chance_beyond=chance)
 
 
 def of_mean(
@@ -62,26 +92,21 @@ def of_mean(
 def of_sd(ours: float, count: int, published: Number, repetitions: int) -> Judgement:
     """Judge standard deviations by their logarithms and the normal theory's 1 / (2 df)."""
     rule = "logarithm of the ratio of standard deviations"
-    relative = np.sqrt(1 / (2 * (count - 1)) + 1 / (2 * (repetitions - 1)))
-    relative = np.hypot(relative, published.unit / np.sqrt(12) / published.value)
-    z = float(np.log(ours / published.value) / relative)
-    return Judgement(ours, float(relative * published.value), z, within(z), rule)
+    relative = float(np.sqrt(1 / (2 * (count - 1)) + 1 / (2 * (repetitions - 1))))
+    return _by_logarithm(ours, published, relative, rule)
 
 
-def f_error(f: float, df1: float, df2: float) -> float:
-    """Find the standard deviation of an F statistic, with the noncentrality that it shows.
-
-    NaN for four or fewer residual degrees of freedom, where F has no variance.
-    """
-    if df2 <= 4:
-        return np.nan
-    return float(stats.ncf.std(df1, df2, max(df1 * (f - 1), 0.0)))
+def _by_logarithm(ours: float, published: Number, error: float, rule: str) -> Judgement:
+    unit = published.unit / published.value
+    relative = float(np.hypot(error, unit / np.sqrt(12)))
+    z = float(np.log(ours / published.value)) / relative
+    chance = chance_beyond(error, unit)
+    return Judgement(ours, relative * published.value, z, within(z), rule, chance_beyond=chance)
 
 
-def of_f(ours: float, published: Number, df1: float, df2: float) -> Judgement:
-    """Judge F statistics of the same design, by noncentral F distributions."""
-    error = np.hypot(f_error(ours, df1, df2), f_error(published.value, df1, df2))
-    return _judgement(ours, published, error, "difference of F, noncentral F distributions")
+def of_f(ours: float, published: Number, error: float) -> Judgement:
+    """Judge F statistics of the same design; `error` is that of the logarithm of their ratio."""
+    return _by_logarithm(ours, published, error, "logarithm of the ratio of F, error by bootstrap")
 
 
 def of_rounded_p(ours: float, published: Number) -> Judgement:
@@ -99,27 +124,31 @@ def f_of_p(p: float, df1: float, df2: float) -> float:
 
 
 def of_regression_p(
-    ours: float, log10_ours: float, f: float, published: Number, df1: float, df2: float
+    ours: float,
+    log10_ours: float,
+    f: float,
+    published: Number,
+    df: tuple[float, float],
+    error: float,
 ) -> Judgement:
-    """Judge p-values of regressions of the same design, by the F that they stand for."""
-    published_f = f_of_p(published.value, df1, df2)
-    error = np.hypot(f_error(f, df1, df2), f_error(published_f, df1, df2))
-    z = (f - published_f) / error
+    """Judge p-values of regressions of the same design, by the F that they stand for.
+
+    The error is that of the logarithm of the ratio of F.
+    """
+    z = float(np.log(f / f_of_p(published.value, *df))) / error
     ratio = log10_ours - float(np.log10(published.value))
-    return Judgement(ours, np.nan, z, within(z), "F from p, then as F; the ratio on log10", ratio)
+    rule = "F from p, then as F; the ratio on log10"
+    return Judgement(ours, np.nan, z, within(z), rule, ratio)
 
 
-def of_adjusted_r2(ours: float, f: float, published: Number, df1: float, df2: float) -> Judgement:
-    """Judge adjusted R squared of the same design, by the spread of F."""
-    slope = (df1 + df2) * df1 / (df2 + df1 * f) ** 2
-    error = np.sqrt(2) * slope * f_error(f, df1, df2)
-    return _judgement(ours, published, error, "difference, its error from the spread of F")
+def of_adjusted_r2(ours: float, published: Number, error: float) -> Judgement:
+    """Judge adjusted R squared of the same design."""
+    return _judgement(ours, published, error, "difference, error by bootstrap")
 
 
-def of_coefficient(ours: float, error: float, published: Number) -> Judgement:
+def of_coefficient(ours: float, published: Number, error: float) -> Judgement:
     """Judge regression coefficients of the same design."""
-    rule = "difference of coefficients, the paper's error as ours"
-    return _judgement(ours, published, error * np.sqrt(2), rule)
+    return _judgement(ours, published, error, "difference of coefficients, error by bootstrap")
 
 
 def of_t_test(
@@ -135,7 +164,8 @@ def of_t_test(
     z = float(np.log(abs(t) / np.sqrt(count) / published_t) / error)
     ratio = log10_ours - np.log10(published.value) if count == repetitions else np.nan
     rule = "t / sqrt(repetitions) from p, logarithm of the ratio; the ratio of p on log10"
-    return Judgement(ours, np.nan, z, within(z), rule, float(ratio))
+    chance = chance_beyond(float(error), 0.0)
+    return Judgement(ours, np.nan, z, within(z), rule, float(ratio), chance)
 
 
 def of_null_p(ours: float, published_p: float, our_p: float) -> Judgement:
@@ -146,11 +176,20 @@ def of_null_p(ours: float, published_p: float, our_p: float) -> Judgement:
     return Judgement(ours, np.nan, z, verdict, rule)
 
 
-def of_unnamed_p(rank: float, published: Number, family: int, level: float) -> Judgement:
-    """Judge a p-value of an unnamed point set, one of `family` printed ones."""
-    verdict = PLAUSIBLE if published.value >= level / family else IMPLAUSIBLE
+def of_drawn_p(rank: float, family_p: float) -> Judgement:
+    """Judge a p-value of a random point set by all printed ones of its test together.
+
+    Parameters
+    ----------
+    rank : float
+        Share of our p-values that are at most as large.
+    family_p : float
+        Of the test that the printed p-values of this test and ours have one distribution.
+    """
+    verdict = PLAUSIBLE if family_p >= TABLE_DIFFERS_BELOW else IMPLAUSIBLE
     rule = (
-        f"of an unnamed point set, no number of ours belongs to it: plausible unless below {level} "
-        f"/ {family}; ours is the share of our p-values that are at most as large"
+        "all printed p-values of this test against ours of sets of the same size (Mann and "
+        f"Whitney): plausible unless p is below {TABLE_DIFFERS_BELOW}; ours is the share of our "
+        "p-values that are at most as large"
     )
     return Judgement(rank, np.nan, np.nan, verdict, rule)

@@ -14,9 +14,18 @@ SHOWN = "uniform"
 #: The paper's method of triangulation, of `lepp.METHODS`; every other is compared with it.
 REFERENCE_METHOD = "incremental"
 
+#: What a published number is evidence of. Only the first counts as reproduced: the second follows
+#: from the means and standard deviations that the paper itself prints; the third holds in any
+#: faithful run of the design; the fourth is a draw that no other run can repeat; the fifth is a
+#: second number of a test whose p-value stands beside it.
+INDEPENDENT, IMPLIED, BY_CONSTRUCTION, RANDOM_DRAW, SAME_TEST = (
+    "independent", "implied by Table 4", "by construction", "random draw", "same test",
+)  # fmt: skip
+
 #: The quantities of Table 4.
 MEAN_TRIANGLES, LARGEST_LEPP = "mean triangles", "mean largest LEPP"
 MEAN_LEPP, SD_BETWEEN = "mean LEPP", "standard deviation"
+QUANTITIES_OF_TABLE_4 = (MEAN_LEPP, SD_BETWEEN, MEAN_TRIANGLES, LARGEST_LEPP)
 
 
 @dataclass(frozen=True)
@@ -34,6 +43,8 @@ class Number:
     n_points : int or None
         The group that it belongs to.
     scientific : bool
+    standing : str
+        What it is evidence of, see `INDEPENDENT`.
     """
 
     table: int
@@ -43,6 +54,7 @@ class Number:
     distribution: str = SHOWN
     n_points: int | None = None
     scientific: bool = False
+    standing: str = INDEPENDENT
 
     @property
     def printed(self) -> str:
@@ -54,6 +66,36 @@ class Number:
         """One unit of the last printed digit."""
         exponent = int(f"{self.value:e}".split("e")[1]) if self.scientific else 0
         return float(10.0 ** (exponent - self.places))
+
+    @property
+    def rounded_from(self) -> tuple[float, float]:
+        """Least and largest value that is printed so."""
+        return self.value - self.unit / 2, self.value + self.unit / 2
+
+
+@dataclass(frozen=True)
+class Citation:
+    """How the paper is cited.
+
+    Attributes
+    ----------
+    authors : tuple of str
+        Given name first.
+    title, venue : str
+    year : int
+    doi : str
+        Without a resolver's address.
+    doi_confirmed : bool
+        Whether the DOI has been looked up; else it is made from the publisher's paper number and
+        pages.
+    """
+
+    authors: tuple[str, ...]
+    title: str
+    venue: str
+    year: int
+    doi: str
+    doi_confirmed: bool
 
 
 def reference_method(methods: Sequence[str]) -> str:
@@ -67,18 +109,33 @@ def _document() -> dict[str, Any]:
     return json.loads(text)
 
 
+def _citation() -> Citation:
+    printed = _document()["citation"]
+    return Citation(
+        tuple(printed["authors"]),
+        printed["title"],
+        printed["venue"],
+        printed["year"],
+        printed["doi"],
+        printed["doi_confirmed"],
+    )
+
+
+CITATION = _citation()
+
+
 def sizes() -> tuple[int, ...]:
     """Numbers of points of the published groups."""
     return tuple(row[0] * 1000 for row in _document()["table_4_uniform"]["rows"])
 
 
 def table_1() -> list[Number]:
-    """p-values of the runs and Kolmogorov-Smirnov tests of unnamed point sets."""
+    """p-values of the runs and Kolmogorov-Smirnov tests of point sets without a stated size."""
     numbers = []
     for no, *values in _document()["table_1_uniform_runs_and_ks"]["rows"]:
         names = ("runs test, x", "runs test, y", "Kolmogorov-Smirnov, x", "Kolmogorov-Smirnov, y")
         numbers += [
-            Number(1, f"p of {name}, no. {no}", value, 4)
+            Number(1, f"p of {name}, no. {no}", value, 4, standing=RANDOM_DRAW)
             for name, value in zip(names, values, strict=True)
         ]
     return numbers
@@ -92,8 +149,8 @@ def f_test(table: int) -> tuple[int, int, Number, Number]:
     return (
         found["df_group"],
         found["df_residual"],
-        Number(table, f"F, {name}", found["f"], 2),
-        Number(table, f"p, {name}", 0.0, 4),
+        Number(table, f"F, {name}", found["f"], 2, standing=IMPLIED if table == 5 else INDEPENDENT),
+        Number(table, f"p, {name}", 0.0, 4, standing=BY_CONSTRUCTION),
     )
 
 
@@ -102,11 +159,15 @@ def table_3() -> list[tuple[Number, Number]]:
     rows = _document()["table_3_uniform_shapiro_wilk"]["rows"]
     return [
         (
-            Number(3, "W, Shapiro-Wilk", w, 2, n_points=int(group[1:]) * 1000),
-            Number(3, "p, Shapiro-Wilk", p, 2, n_points=int(group[1:]) * 1000),
+            Number(3, "W, Shapiro-Wilk", w, 2, n_points=_size(group), standing=SAME_TEST),
+            Number(3, "p, Shapiro-Wilk", p, 2, n_points=_size(group), standing=RANDOM_DRAW),
         )
         for group, w, p in rows
     ]
+
+
+def _size(group: str) -> int:
+    return int(group[1:]) * 1000
 
 
 def table_4() -> list[tuple[Number, Number, Number, Number]]:
@@ -126,7 +187,16 @@ def table_6() -> list[Number]:
     """p-values of the t tests of mean < 4, for some groups of all distributions."""
     found = _document()["table_6_t_test_mean_below_4"]
     return [
-        Number(6, "p, mean below 4", p, 2, distribution, thousands * 1000, scientific=True)
+        Number(
+            6,
+            "p, mean below 4",
+            p,
+            2,
+            distribution,
+            thousands * 1000,
+            scientific=True,
+            standing=IMPLIED if distribution == SHOWN else INDEPENDENT,
+        )
         for thousands, *row in found["rows"]
         for distribution, p in zip(found["columns"][1:], row, strict=True)
     ]
@@ -146,11 +216,15 @@ _TERMS = (
 )
 
 
+def _of_table_7(quantity: str, value: float, places: int, *, scientific: bool = False) -> Number:
+    return Number(7, quantity, value, places, scientific=scientific, standing=IMPLIED)
+
+
 def coefficients() -> list[tuple[str, str, Number]]:
     """Model, term and value of the coefficients of Table 7."""
     found = _document()["table_7_uniform_regressions"]
     return [
-        (model, term, Number(7, f"{model}, {term}", found[model][key], places, scientific=e))
+        (model, term, _of_table_7(f"{model}, {term}", found[model][key], places, scientific=e))
         for model, term, key, places, e in _TERMS
     ]
 
@@ -158,7 +232,7 @@ def coefficients() -> list[tuple[str, str, Number]]:
 def linear_slope_as_printed() -> Number:
     """Give the slope of the linear model with the exponent that the paper prints."""
     value = _document()["table_7_uniform_regressions"]["linear"]["x_printed"]
-    return Number(7, "linear, b, as printed", value, 3, scientific=True)
+    return _of_table_7("linear, b, as printed", value, 3, scientific=True)
 
 
 def fits() -> list[tuple[str, Number, Number]]:
@@ -167,8 +241,8 @@ def fits() -> list[tuple[str, Number, Number]]:
     return [
         (
             model,
-            Number(7, f"{model}, adjusted R squared", found[model]["adj_r2"], 2),
-            Number(7, f"{model}, p", found[model]["p"], 2, scientific=True),
+            _of_table_7(f"{model}, adjusted R squared", found[model]["adj_r2"], 2),
+            _of_table_7(f"{model}, p", found[model]["p"], 2, scientific=True),
         )
         for model in ("linear", "quadratic", "logistic", "logarithmic")
     ]

@@ -1,7 +1,8 @@
 """Every published number beside ours, with a verdict."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict
+from functools import cached_property
 
 import numpy as np
 import pandas as pd
@@ -16,10 +17,23 @@ from study.analysis.regressions import COEFFICIENTS, LEAST_SQUARES, REGRESSIONS
 from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Declaration, Row
 from study.analysis.variance_analysis import ANOVA, CLASSICAL
 from study.paper import judging, published
-from study.paper.judging import NOT_COMPARABLE, NOT_RUN, Judgement
-from study.paper.published import REFERENCE_METHOD, REPETITIONS, SHOWN, Number
+from study.paper.consistency import PUBLISHED_TABLE, table_4_groups
+from study.paper.judging import AGREES, CLOSE, DIFFERS, NOT_COMPARABLE, NOT_RUN, Judgement
+from study.paper.published import (
+    BY_CONSTRUCTION,
+    IMPLIED,
+    INDEPENDENT,
+    RANDOM_DRAW,
+    REFERENCE_METHOD,
+    REPETITIONS,
+    SAME_TEST,
+    SHOWN,
+    Number,
+)
+from study.paper.runs_lattice import sizes_of_table_1
+from study.statistics.replications import ADJUSTED_R2, ANOVA_F, LEVENE_F, F, Replications
 from study.statistics.tails import log10_chi2_tail
-from study.statistics.thresholds import SIGNIFICANCE, TABLE_DIFFERS_BELOW
+from study.statistics.thresholds import AGREES_UP_TO, TABLE_DIFFERS_BELOW
 
 
 def verdict_column(verdict: str) -> str:
@@ -27,7 +41,13 @@ def verdict_column(verdict: str) -> str:
     return verdict.replace(" ", "_")
 
 
-_PUBLISHED_TABLE = Column("published_table", "Published table", "", "int")
+def independent_column(verdict: str) -> str:
+    """Name of the column that counts a verdict on independent numbers."""
+    return f"independent_{verdict}"
+
+
+#: Verdicts by standard errors.
+JUDGED = (AGREES, CLOSE, DIFFERS)
 
 REPRODUCTION = Declaration(
     "reproduction",
@@ -35,7 +55,7 @@ REPRODUCTION = Declaration(
     (
         METHOD,
         DISTRIBUTION,
-        _PUBLISHED_TABLE,
+        PUBLISHED_TABLE,
         Column("quantity", "Quantity"),
         N_POINTS,
         Column("printed", "Printed"),
@@ -44,11 +64,19 @@ REPRODUCTION = Declaration(
         Column("standard_error", "Standard error", "", "g2"),
         Column("difference", "Difference", "standard errors", "fixed2"),
         Column("log10_ratio", "log10 of the ratio", "", "fixed1"),
+        Column("chance_beyond", f"Chance of more than {AGREES_UP_TO:g}", "", "percent1"),
         Column("verdict", "Verdict", "", "verdict"),
+        Column("standing", "Evidence"),
         Column("rule", "Rule"),
     ),
-    note=f"{judging.RULE}. Some of so many numbers must differ by chance. The published numbers "
-    f"are of triangulations by insertion without flips, the method {REFERENCE_METHOD}; for any "
+    note=f"{judging.RULE}. Some of so many numbers must differ by chance. Only what is "
+    f"{INDEPENDENT} counts as reproduced; {IMPLIED}: it follows from the means and standard "
+    f"deviations there; {BY_CONSTRUCTION}: every run of the design gives "
+    f"it; {RANDOM_DRAW}: no other run can repeat it; {SAME_TEST}: its test is counted by the "
+    "p-value. Levene's F is counted, though the standard deviations of Table 4 decide most of it. "
+    "Errors of F, R squared and coefficients are of a parametric bootstrap, in which every group "
+    "has a mean and standard deviation of its own. The published numbers are of triangulations by "
+    f"insertion without flips, the method {REFERENCE_METHOD}; for any "
     "other method the table shows how far it is from them, not an attempt to reproduce them.",
 )
 
@@ -57,29 +85,46 @@ SUMMARY = Declaration(
     "Verdicts on the published numbers",
     (
         METHOD,
-        _PUBLISHED_TABLE,
+        PUBLISHED_TABLE,
         Column("numbers", "Numbers", "", "int"),
+        Column("independent", "Independent, and judged", "", "int"),
+        *(Column(independent_column(v), f"of these {v}", "", "int") for v in JUDGED),
         *(Column(verdict_column(v), v.capitalize(), "", "int") for v in judging.VERDICTS),
     ),
-    note=judging.RULE,
+    note=f"{judging.RULE}. The last columns count all numbers, independent or not.",
 )
+
+#: All independent numbers together, beside the quantities of Table 4.
+ALL_INDEPENDENT = "all independent numbers"
+#: Verdict on numbers that are nearer to ours than chance brings them.
+TOO_CLOSE = "closer than chance"
 
 OVERALL = Declaration(
     "reproduction_overall",
-    "Table 4 as a whole",
+    "The independent numbers together",
     (
         METHOD,
-        DISTRIBUTION,
-        Column("quantity", "Quantity of Table 4"),
+        Column("quantity", "Quantity"),
+        Column("numbers", "Numbers", "", "int"),
+        Column("beyond", f"Beyond {AGREES_UP_TO:g} standard errors", "", "int"),
+        Column("expected_beyond", "Expected by chance", "", "fixed1"),
         Column("chi2", "Chi-squared", "", "fixed1"),
         Column("df", "Df", "", "int"),
-        Column("p", "p", "", "p"),
+        Column("p", "p of more", "", "p"),
         Column("log10_p", "log10 p", "", "log10p"),
+        Column("p_less", "p of less", "", "p"),
+        Column("shift", "Common shift, z", "standard errors", "fixed2"),
+        Column("shift_p", "p of the shift", "", "p"),
         Column("furthest", "Largest difference", "standard errors", "fixed2"),
         Column("verdict", "Verdict", "", "verdict"),
     ),
-    note="Sum of the squared differences, in standard errors, of all groups of Table 4 that were "
-    f"run. It agrees unless p is below {TABLE_DIFFERS_BELOW}.",
+    note="Chi-squared is the sum of the squared differences, in standard errors; p of more is the "
+    "chance of a larger sum, p of less of a smaller. The common shift is the sum of the "
+    "differences over the root of their number (Stouffer), normal if there is none; its p counts "
+    "both directions. All independent numbers have no shift together, as they are of different "
+    "kinds. Verdicts: differs if p of more or of the shift is below "
+    f"{TABLE_DIFFERS_BELOW}, else {TOO_CLOSE} if p of less is. Numbers of one run are not quite "
+    "independent of one another: Levene's F hangs on the standard deviations.",
 )
 
 _NOT_RUN = Judgement(np.nan, np.nan, np.nan, NOT_RUN, "the run has not enough of this group")
@@ -109,6 +154,7 @@ def reproduction(study: Study) -> Iterator[Row]:
                 "n_points": number.n_points,
                 "printed": number.printed,
                 "published": number.value,
+                "standing": number.standing,
             } | asdict(judgement)
 
 
@@ -119,32 +165,58 @@ def summary(study: Study) -> Iterator[Row]:
     for method in study.data.design.methods:
         for number, judged in frame[frame["method"] == method].groupby("published_table"):
             counts = judged["verdict"].value_counts()
-            row: Row = {"method": method, "published_table": number, "numbers": len(judged)}
+            counted = judged.loc[judged["standing"] == INDEPENDENT, "verdict"].value_counts()
+            independent = {independent_column(v): int(counted.get(v, 0)) for v in JUDGED}
+            row: Row = {
+                "method": method,
+                "published_table": number,
+                "numbers": len(judged),
+                "independent": sum(independent.values()),
+            }
+            row |= independent
             yield row | {verdict_column(v): int(counts.get(v, 0)) for v in judging.VERDICTS}
 
 
 @rows_of(OVERALL, needs=(REPRODUCTION,))
 def overall(study: Study) -> Iterator[Row]:
-    """Chi-squared over all groups of Table 4, for the means and the standard deviations."""
+    """Test the independent numbers together, by quantity of Table 4 and all."""
     for method in study.data.design.methods:
-        for quantity in (published.MEAN_LEPP, published.SD_BETWEEN, published.MEAN_TRIANGLES):
-            rows = study.tables.rows(REPRODUCTION, method=method, quantity=quantity)
-            z = rows["difference"].dropna()
-            if z.empty:
-                continue
-            chi2, df = float((z**2).sum()), len(z)
-            p = float(stats.chi2.sf(chi2, df))
-            yield {
-                "method": method,
-                "distribution": SHOWN,
-                "quantity": quantity,
-                "chi2": chi2,
-                "df": df,
-                "p": p,
-                "log10_p": log10_chi2_tail(chi2, df),
-                "furthest": z.loc[z.abs().idxmax()],
-                "verdict": judging.DIFFERS if p < TABLE_DIFFERS_BELOW else judging.AGREES,
-            }
+        rows = study.tables.rows(REPRODUCTION, method=method, standing=INDEPENDENT)
+        judged = rows.frame[rows["difference"].notna()]
+        for quantity in published.QUANTITIES_OF_TABLE_4:
+            of_quantity = judged[judged["quantity"] == quantity]
+            if not of_quantity.empty:
+                yield {"method": method, "quantity": quantity} | _together(of_quantity, shift=True)
+        if not judged.empty:
+            together = _together(judged, shift=False)
+            yield {"method": method, "quantity": ALL_INDEPENDENT} | together
+
+
+def _together(judged: pd.DataFrame, *, shift: bool) -> Row:
+    z = judged["difference"].to_numpy()
+    chi2, df = float(z @ z), len(z)
+    p, p_less = float(stats.chi2.sf(chi2, df)), float(stats.chi2.cdf(chi2, df))
+    row: Row = {
+        "numbers": df,
+        "beyond": int((np.abs(z) > AGREES_UP_TO).sum()),
+        "expected_beyond": judged["chance_beyond"].sum(),
+        "chi2": chi2,
+        "df": df,
+        "p": p,
+        "log10_p": log10_chi2_tail(chi2, df),
+        "p_less": p_less,
+        "furthest": z[np.abs(z).argmax()],
+    }
+    lowest = p
+    if shift:
+        common = float(z.sum() / np.sqrt(df))
+        shift_p = float(2 * stats.norm.sf(abs(common)))
+        row |= {"shift": common, "shift_p": shift_p}
+        lowest = min(p, shift_p)
+    verdict = DIFFERS if lowest < TABLE_DIFFERS_BELOW else AGREES
+    if verdict == AGREES and p_less < TABLE_DIFFERS_BELOW:
+        verdict = TOO_CLOSE
+    return row | {"verdict": verdict}
 
 
 class _Ours:
@@ -166,33 +238,69 @@ class _Ours:
         rows = self.data.triangulations(self.method, SHOWN)["n_points"].value_counts()
         return rows.to_dict() == dict.fromkeys(published.sizes(), REPETITIONS)
 
+    def error(self, statistic: str, model: str = "") -> float:
+        """Find the error of the difference between ours and the paper's, of the same design."""
+        ours, theirs = (errors[model, statistic] for errors in self._errors)
+        return float(np.hypot(ours, theirs))
+
+    @cached_property
+    def _errors(self) -> tuple[Mapping[tuple[str, str], float], ...]:
+        groups, theirs = self.data.groups(self.method, SHOWN), table_4_groups()
+        both = (
+            Replications(
+                groups.n_points / 1000, groups.means, np.sqrt(groups.variances), REPETITIONS
+            ),
+            Replications(theirs.x, theirs.means, theirs.sds, REPETITIONS),
+        )
+        # Keys of four places are those of the points.
+        seeds = np.random.SeedSequence(self.data.design.seed).spawn(len(both))
+        return tuple(
+            one.standard_errors(np.random.default_rng(seed))
+            for one, seed in zip(both, seeds, strict=True)
+        )
+
 
 def _judge(ours: _Ours) -> Judged:
     yield from _table_1(ours)
-    yield from _f_test(ours, 2, LEVENE, "f", center=CENTERS[0])
+    yield from _f_test(ours, 2, LEVENE, "f", LEVENE_F, center=CENTERS[0])
     yield from _table_3(ours)
     yield from _table_4(ours)
-    yield from _f_test(ours, 5, ANOVA, "statistic", test=CLASSICAL)
+    yield from _f_test(ours, 5, ANOVA, "statistic", ANOVA_F, test=CLASSICAL)
     yield from _table_6(ours)
     yield from _table_7(ours)
 
 
 def _table_1(ours: _Ours) -> Judged:
     sets = ours.data.point_sets
-    sets = sets[sets["distribution"] == SHOWN]
+    sets = sets[(sets["distribution"] == SHOWN) & sets["n_points"].isin(sizes_of_table_1())]
     numbers = published.table_1()
     columns = [f"{prefix}_{coordinate}" for prefix in TESTS.values() for coordinate in COORDINATES]
-    for place, number in enumerate(numbers):
-        values = sets[columns[place % len(columns)]].dropna()
-        rank = float((values <= number.value).mean()) if len(values) else np.nan
-        yield number, judging.of_unnamed_p(rank, number, len(numbers), SIGNIFICANCE)
+    of_test = {
+        prefix: sets[[f"{prefix}_{c}" for c in COORDINATES]].to_numpy().ravel()
+        for prefix in TESTS.values()
+    }
+    families: dict[str, list[float]] = {prefix: [] for prefix in TESTS.values()}
+    prefixes = [columns[place % len(columns)].rpartition("_")[0] for place in range(len(numbers))]
+    for number, prefix in zip(numbers, prefixes, strict=True):
+        families[prefix].append(number.value)
+    for number, prefix in zip(numbers, prefixes, strict=True):
+        values = of_test[prefix][~np.isnan(of_test[prefix])]
+        if not len(values):
+            yield number, _NOT_RUN
+            continue
+        rank = float((values <= number.value).mean())
+        test = stats.mannwhitneyu(families[prefix], values, method="asymptotic")
+        yield number, judging.of_drawn_p(rank, float(test.pvalue))
 
 
-def _f_test(ours: _Ours, table: int, declared: Declaration, column: str, **wanted: str) -> Judged:
+def _f_test(
+    ours: _Ours, table: int, declared: Declaration, column: str, statistic: str, **wanted: str
+) -> Judged:
     df1, df2, f, p = published.f_test(table)
     row = ours.row(declared, distribution=SHOWN, **wanted)
     for df, value in (("df_group", df1), ("df_residual", df2)):
-        number = Number(table, f"{df.replace('df_', 'degrees of freedom, ')}", value, 0)
+        name = df.replace("df_", "degrees of freedom, ")
+        number = Number(table, name, value, 0, standing=BY_CONSTRUCTION)
         if row is None:
             yield number, _NOT_RUN
             continue
@@ -204,7 +312,7 @@ def _f_test(ours: _Ours, table: int, declared: Declaration, column: str, **wante
     elif not ours.has_published_design:
         yield from ((number, _OTHER_DESIGN) for number in (f, p))
     else:
-        yield f, judging.of_f(row[column], f, df1, df2)
+        yield f, judging.of_f(row[column], f, ours.error(statistic))
         yield p, judging.of_rounded_p(row["p"], p)
 
 
@@ -267,7 +375,7 @@ def _table_7(ours: _Ours) -> Judged:
             if (model, term) == ("linear", "b"):
                 yield slope, row or _NOT_RUN
             continue
-        found = judging.of_coefficient(row["estimate"], row["standard_error"], number)
+        found = judging.of_coefficient(row["estimate"], number, ours.error(term, model))
         yield number, found
         if (model, term) == ("linear", "b"):
             yield slope, _misprint(found, slope)
@@ -276,9 +384,10 @@ def _table_7(ours: _Ours) -> Judged:
         if row is None or isinstance(row, Judgement):
             yield from ((number, row or _NOT_RUN) for number in (r2, p))
             continue
-        df1, df2 = row["df_model"], row["df_residual"]
-        yield r2, judging.of_adjusted_r2(row["adj_r2"], row["f"], r2, df1, df2)
-        yield p, judging.of_regression_p(row["p"], row["log10_p"], row["f"], p, df1, df2)
+        df = row["df_model"], row["df_residual"]
+        yield r2, judging.of_adjusted_r2(row["adj_r2"], r2, ours.error(ADJUSTED_R2, model))
+        error = ours.error(F, model)
+        yield p, judging.of_regression_p(row["p"], row["log10_p"], row["f"], p, df, error)
 
 
 def _regression(

@@ -24,9 +24,8 @@ from study.analysis.group_summaries import GROUPS, OVERVIEW
 from study.analysis.terminal_regions import REGIONS
 from study.analysis.theorems import MEAN, SD, THEOREM_1, THEOREM_2
 from study.analysis.variance_analysis import ANOVA, WELCH
-from study.paper.judging import AGREES, CLOSE, DIFFERS
 from study.paper.published import REFERENCE_METHOD
-from study.paper.reproduction import SUMMARY
+from study.paper.reproduction import JUDGED, SUMMARY, independent_column
 from study.paper.statements import NOT_TESTED, STATEMENTS
 from study.statistics.thresholds import CLOSE_UP_TO, ONE_PERCENT, SIGNIFICANCE, WITHIN_ONE_PERCENT
 from study.statistics.verdicts import NO, UNDECIDED, YES, all_of
@@ -107,13 +106,13 @@ def _tiles(evidence: Evidence, view: View) -> list[Tile] | None:
             )
         )
     verdicts = evidence.rows(SUMMARY, method=view.method)
-    agrees, close, differs = (int(verdicts[v].sum()) for v in (AGREES, CLOSE, DIFFERS))
+    agrees, close, differs = (int(verdicts[independent_column(v)].sum()) for v in JUDGED)
     # Of other triangulations the paper prints nothing.
     if view.method == REFERENCE_METHOD and agrees + close + differs:
         tiles.append(
             Tile(
                 f"{agrees + close} of {agrees + close + differs}",
-                "Published numbers met",
+                "Independent published numbers met",
                 f"within {CLOSE_UP_TO:g} standard errors",
             )
         )

@@ -1,12 +1,14 @@
 """Verdicts on the published numbers: by results that reproduce them, and by results that do not."""
 
 import numpy as np
+import pandas as pd
 import pytest
 from frames import design, frames
 from scipy import stats
+from statsmodels.regression.linear_model import OLS
 
 from study.analysis import analyse
-from study.paper import judging, published
+from study.paper import judging, published, reproduction
 
 
 def scoreboard(tables, **wanted):
@@ -24,6 +26,101 @@ def test_the_published_table_reproduces_itself(paper_study):
     overall = tables["reproduction_overall"].frame.set_index("quantity")
     assert overall.loc["mean LEPP", "chi2"] == pytest.approx(0, abs=1e-9)
     assert overall.loc["mean LEPP", "df"] == 20
+
+
+def test_what_counts_as_reproduced(paper_study):
+    frame = scoreboard(paper_study[2])
+    assert frame["standing"].value_counts().to_dict() == {
+        "independent": 93,
+        "implied by Table 4": 1 + 4 + 18,
+        "by construction": 4 + 2,
+        "random draw": 16 + 4,
+        "same test": 4,
+    }
+    summary = paper_study[2]["reproduction_summary"].frame.set_index("published_table")
+    judged = frame[frame["verdict"].isin(["agrees", "close", "differs"])]
+    independent = judged[judged["standing"] == "independent"]
+    assert summary["independent"].sum() == len(independent) == 81  # one distribution was run
+    assert summary.loc[[5, 7], "independent"].tolist() == [0, 0]
+    assert summary.loc[7, "agrees"] == 17
+    for verdict in ("agrees", "close", "differs"):
+        expected = (independent["verdict"] == verdict).sum()
+        assert summary[f"independent_{verdict}"].sum() == expected
+
+
+def test_independent_numbers_together(paper_study):
+    tables = paper_study[2]
+    overall = tables["reproduction_overall"].frame.set_index("quantity")
+    assert overall.index.tolist() == [
+        "mean LEPP", "standard deviation", "mean triangles", "mean largest LEPP",
+        "all independent numbers",
+    ]  # fmt: skip
+    assert overall["numbers"].tolist() == [20, 20, 20, 20, 81]
+    assert overall.loc["mean LEPP", "verdict"] == "closer than chance"  # it is the paper's
+    assert overall.loc["mean LEPP", "p_less"] < 1e-12
+    assert np.isnan(overall.loc["all independent numbers", "shift"])
+    frame = scoreboard(tables, standing="independent")
+    expected = frame["chance_beyond"].sum()
+    assert overall.loc["all independent numbers", "expected_beyond"] == pytest.approx(expected)
+    assert overall.loc["standard deviation", "expected_beyond"] == pytest.approx(
+        20 * 2 * stats.norm.sf(2), rel=1e-3
+    )
+
+
+SPREAD = np.tile([0.8, -0.8], 10)
+
+
+@pytest.mark.parametrize(
+    ("z", "verdict"),
+    [
+        (0.57 + SPREAD, "agrees"),
+        (0.58 + SPREAD, "differs"),  # a shift of 2.59 standard errors: p 0.0095
+        (-0.58 + SPREAD, "differs"),
+        (np.tile([1.36, -1.36], 10), "agrees"),
+        (np.tile([1.38, -1.38], 10), "differs"),  # chi-squared 38.1
+        (np.tile([0.65, -0.65], 10), "agrees"),
+        (np.tile([0.63, -0.63], 10), "closer than chance"),  # chi-squared 7.9
+    ],
+)
+def test_verdicts_on_all_together(z, verdict):
+    judged = pd.DataFrame({"difference": z, "chance_beyond": 0.0455})
+    row = reproduction._together(judged, shift=True)
+    assert row["verdict"] == verdict
+    chi2 = (z**2).sum()
+    assert row["p"] == pytest.approx(stats.chi2.sf(chi2, 20))
+    assert row["p_less"] == pytest.approx(stats.chi2.cdf(chi2, 20))
+    stouffer = stats.combine_pvalues(stats.norm.sf(z), method="stouffer")
+    assert row["shift"] == pytest.approx(stouffer.statistic, abs=1e-9)
+    assert row["shift_p"] == pytest.approx(2 * min(stouffer.pvalue, 1 - stouffer.pvalue))
+
+
+def test_numbers_of_different_kinds_have_no_common_shift():
+    judged = pd.DataFrame({"difference": 0.6 + SPREAD, "chance_beyond": 0.0455})
+    row = reproduction._together(judged, shift=False)
+    assert row["verdict"] == "agrees"
+    assert "shift" not in row
+    assert row["expected_beyond"] == pytest.approx(0.91)
+    assert row["beyond"] == 0
+    judged["difference"] *= 2
+    assert reproduction._together(judged, shift=False)["beyond"] == 10
+
+
+def test_errors_do_not_hang_on_equal_variances(paper_study):
+    # of the paper's own groups: HC3 is the error of the logarithm's coefficients, not the usual one
+    _, (results, *_), tables = paper_study
+    y, x = results["mean_lepp"].to_numpy(), results["n_points"].to_numpy() / 1000
+    hc3 = OLS(y, np.column_stack([np.ones_like(x), np.log2(x)])).fit(cov_type="HC3").bse
+    frame = scoreboard(tables, published_table=7).set_index("quantity")
+    for name, error in zip(("logarithmic, c", "logarithmic, d"), hc3, strict=True):
+        unit = {"logarithmic, c": 1e-3, "logarithmic, d": 1e-4}[name] / np.sqrt(12)
+        expected = np.hypot(np.sqrt(2) * error, unit)
+        assert frame.loc[name, "standard_error"] == pytest.approx(expected, rel=0.06)
+
+
+def test_the_same_design_has_the_same_errors(paper_study):
+    asked, made, tables = paper_study
+    again = analyse(*made, asked)
+    assert again["reproduction"].to_csv() == tables["reproduction"].to_csv()
 
 
 def test_every_published_number_is_there(paper_study):
@@ -53,6 +150,8 @@ def test_a_shifted_group_differs(paper_study):
     overall = tables["reproduction_overall"].frame.set_index("quantity")
     assert overall.loc["mean LEPP", "chi2"] == pytest.approx(25, abs=0.1)
     assert overall.loc["mean LEPP", "p"] == pytest.approx(stats.chi2.sf(25, 20), rel=0.03)
+    assert overall.loc["mean LEPP", "beyond"] == 1
+    assert overall.loc["mean LEPP", "shift"] == pytest.approx(5 / np.sqrt(20), abs=0.01)
 
 
 def test_verdicts_are_counted(paper_study):
@@ -100,60 +199,8 @@ def test_standard_deviations_are_judged_as_their_spread_is():
     assert np.std(z) == pytest.approx(1, abs=0.06)
 
 
-def test_f_statistics_are_judged_as_their_spread_is():
-    rng = np.random.default_rng(1)
-    means = np.linspace(0, 1.2, 8)[:, None]
-
-    def f(count):
-        draws = means + rng.normal(size=(count, 8, 20))
-        within = draws.var(axis=2, ddof=1).mean(axis=1)
-        return 20 * draws.mean(axis=2).var(axis=1, ddof=1) / within
-
-    ours, theirs = f(1000), f(1000)
-    z = [
-        judging.of_f(a, published.Number(5, "F", b, 12), 7, 152).difference
-        for a, b in zip(ours, theirs, strict=True)
-    ]
-    assert np.mean(z) == pytest.approx(0, abs=0.15)
-    assert np.std(z) == pytest.approx(1, abs=0.1)
-
-
-X = np.repeat(np.arange(1.0, 21), 10) - 10.5
-DF = len(X) - 2
-
-
-def regressions(rng, count):
-    """Slope, its standard error, F and adjusted R squared of fits to the same x."""
-    y = 0.1 * X + rng.normal(size=(count, len(X)))
-    slope = y @ X / (X @ X)
-    residual = ((y - y.mean(axis=1, keepdims=True) - slope[:, None] * X) ** 2).sum(axis=1) / DF
-    total = y.var(axis=1, ddof=1)
-    return zip(
-        slope, np.sqrt(residual / (X @ X)), slope**2 * (X @ X) / residual, 1 - residual / total,
-        strict=True,
-    )  # fmt: skip
-
-
 def number(value):
-    return published.Number(7, "of a regression", value, 12, scientific=True)
-
-
-@pytest.mark.parametrize("judged", ["coefficient", "adjusted R squared", "p"])
-def test_regressions_are_judged_as_their_spread_is(judged):
-    rng = np.random.default_rng(2)
-    z = []
-    for ours, theirs in zip(regressions(rng, 1000), regressions(rng, 1000), strict=True):
-        (a, error, f, r2), (published_a, _, published_f, published_r2) = ours, theirs
-        if judged == "coefficient":
-            judgement = judging.of_coefficient(a, error, number(published_a))
-        elif judged == "p":
-            p, published_p = stats.f.sf([f, published_f], 1, DF)
-            judgement = judging.of_regression_p(p, np.log10(p), f, number(published_p), 1, DF)
-        else:
-            judgement = judging.of_adjusted_r2(r2, f, number(published_r2), 1, DF)
-        z.append(judgement.difference)
-    assert np.mean(z) == pytest.approx(0, abs=0.15)
-    assert np.std(z) == pytest.approx(1, abs=0.1)
+    return published.Number(6, "of a t test", value, 12, scientific=True)
 
 
 def test_t_tests_are_judged_as_their_spread_is():
@@ -181,10 +228,23 @@ def test_p_printed_as_zero_must_be_below_half_a_unit():
     assert judging.of_rounded_p(5.1e-5, number).verdict == "differs"
 
 
-def test_an_unnamed_p_is_plausible_unless_too_small():
-    small, ordinary = (published.Number(1, "p", p, 4) for p in (0.0001, 0.6))
-    assert judging.of_unnamed_p(0.5, small, 16, 0.05).verdict == "implausible draw"
-    assert judging.of_unnamed_p(0.5, ordinary, 16, 0.05).verdict == "plausible draw"
+def test_points_that_are_not_random_are_seen_in_table_1(paper_study):
+    asked, (results, *others, points), _ = paper_study
+    small = points[points["n_points"] == points["n_points"].iloc[0]]
+    points = small.assign(n_points=10_000)
+    tests = ["runs_p_x", "runs_p_y", "ks_p_x", "ks_p_y"]
+    good = scoreboard(analyse(results, *others, points, asked), published_table=1)
+    assert set(good["verdict"]) == {"plausible draw"}
+    values = points[tests[:2]].to_numpy().ravel()
+    assert good["ours"].iloc[0] == np.mean(values <= 0.6030)
+    bad = points.assign(runs_p_x=0.001, runs_p_y=0.002)
+    frame = scoreboard(analyse(results, *others, bad, asked), published_table=1)
+    runs = frame["quantity"].str.contains("runs")
+    assert set(frame.loc[runs, "verdict"]) == {"implausible draw"}
+    assert set(frame.loc[~runs, "verdict"]) == {"plausible draw"}
+    # sets of another size are not those of Table 1
+    others_only = scoreboard(analyse(results, *others, small, asked), published_table=1)
+    assert set(others_only["verdict"]) == {"not run"}
 
 
 def test_null_draws_are_judged_by_their_normal_scores():
