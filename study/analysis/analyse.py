@@ -7,6 +7,7 @@ import pandas as pd
 
 from study.analysis import (
     bound_tests,
+    distribution_comparison,
     group_assumptions,
     group_summaries,
     method_comparison,
@@ -54,6 +55,9 @@ BUILDERS = (
     terminal_regions.region_sizes,
     method_comparison.methods,
     method_comparison.growth,
+    distribution_comparison.means,
+    distribution_comparison.distributions,
+    distribution_comparison.analogous,
     worst_case_strip.worst_case,
     regressions.regressions,
     reproduction.reproduction,

@@ -11,8 +11,10 @@ from scipy import stats
 from lepp.theory import LEAST_P, LEAST_P_TEXT
 from study.analysis.bound_tests import BOUNDS
 from study.analysis.building import Study, rows_of
+from study.analysis.distribution_comparison import ALIKE, ANALOGOUS, MARGIN
 from study.analysis.group_assumptions import CENTERS, LEVENE, SHAPIRO
 from study.analysis.group_summaries import GROUPS
+from study.analysis.parts import WHOLE
 from study.analysis.path_lengths import TERMINATION
 from study.analysis.regressions import LEAST_SQUARES, REGRESSIONS, WEIGHTED
 from study.analysis.table import (
@@ -201,6 +203,15 @@ def _constant_cost(of: _Tables) -> Judged:
     )
 
 
+def _analogous(of: _Tables) -> Judged:
+    row = of.rows(ANALOGOUS, part=WHOLE).first
+    return row["equivalent"], (
+        f"{row['comparisons']} comparisons with the others: {row[ALIKE]} {ALIKE}; the largest "
+        f"difference is {row['furthest']:.2%}, from the {row['furthest_from'].replace('_', ' ')} "
+        f"distribution at {row['furthest_n']:,} points"
+    )
+
+
 _WITHIN = f"within {100 * WITHIN_ONE_PERCENT:g} %"
 
 #: Source, statement, and how it is answered from the tables of one method and distribution.
@@ -266,6 +277,11 @@ _ASKED: tuple[tuple[str, str, Callable[[_Tables], Judged]], ...] = (
         _logarithmic_best,
     ),
     (
+        "Section 4",
+        f"Results are analogous for all distributions: their means differ by less than {MARGIN}",
+        _analogous,
+    ),
+    (
         "Conclusions",
         "The cost of a LEPP is constant: its mean size has a limit",
         _constant_cost,
@@ -277,6 +293,7 @@ _ASKED: tuple[tuple[str, str, Callable[[_Tables], Judged]], ...] = (
     STATEMENTS,
     needs=(
         GROUPS, LEVENE, SHAPIRO, ANOVA, BOUNDS, REGRESSIONS, TERMINATION, THEOREM_1, THEOREM_2,
+        ANALOGOUS,
     ),
 )  # fmt: skip
 def statements(study: Study) -> Iterator[Row]:

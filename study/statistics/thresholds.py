@@ -16,6 +16,8 @@ TABLE_DIFFERS_BELOW = 0.01
 
 #: Relative difference up to which a formula of Theorem 1 is said to hold.
 WITHIN_ONE_PERCENT, ONE_PERCENT = 0.01, "one per cent"
+#: Means that differ by less than this, relatively, are as good as equal: the margin of equivalence.
+EQUIVALENT_WITHIN = 0.01
 #: Rates of paths that lie within this of one another are called constant.
 CONSTANT_RATE, A_HUNDREDTH = 0.01, "a hundredth"
 #: Width of an interval from which on a rate of paths is too rough to be a step of a trend.

@@ -7,6 +7,7 @@ from reports.page.views import distribution_name
 from reports.study_page.sections import (
     agreement,
     data,
+    distributions,
     methods,
     provenance,
     regions,
@@ -32,6 +33,8 @@ _MOST_ALARMS = 6
 def all_sections(evidence: Evidence) -> list[Section]:
     """Make every section that the run gives reason for."""
     modules = [summary, agreement, theory, statistics, regressions]
+    if len(evidence.design.distributions) > 1:
+        modules.append(distributions)
     if len(evidence.design.methods) > 1:
         modules.append(methods)
     modules += [regions, data, provenance]

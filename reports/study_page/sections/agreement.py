@@ -196,16 +196,21 @@ def _verdicts(evidence: Evidence, view: View) -> list[str] | None:
 
 
 def _independent(evidence: Evidence, view: View, total: pd.Series) -> Iterator[str]:
-    together = evidence.one(OVERALL, method=view.method, quantity=ALL_INDEPENDENT)
-    if together is None:
+    if not total["independent"]:
         return
     agrees, close, differs = (int(total[independent_column(v)]) for v in JUDGED)
     yield (
         f"{total['independent']} of them are independent of one another and can be held against "
         f"ours by their standard errors: {agrees} within {AGREES_UP_TO:g} (agreement), {close} "
-        f"within {CLOSE_UP_TO:g} (close) and {differs} beyond (different). By chance "
-        f"{show(together['expected_beyond'], 'fixed1')} would be beyond {AGREES_UP_TO:g}; "
-        f"{none_or(together['beyond'])} {'is' if together['beyond'] < 2 else 'are'}."
+        f"within {CLOSE_UP_TO:g} (close) and {differs} beyond (different)."
+    )
+    together = evidence.one(OVERALL, method=view.method, quantity=ALL_INDEPENDENT)
+    if together is None:
+        return
+    yield (
+        f"By chance {show(together['expected_beyond'], 'fixed1')} would be beyond "
+        f"{AGREES_UP_TO:g}; {none_or(together['beyond'])} "
+        f"{'is' if together['beyond'] < 2 else 'are'}."
     )
     words = {
         AGREES: "are as far from ours as chance puts them",
@@ -254,13 +259,13 @@ def _not_counted(evidence: Evidence, view: View, total: pd.Series) -> Iterator[s
         if name in standing
     ]
     yield f"Not counted are {listed(each)}."
-    odd = int(total[verdict_column(IMPLAUSIBLE)])
-    if odd or total[verdict_column(PLAUSIBLE)]:
+    draws = rows.select(standing=RANDOM_DRAW)["verdict"].value_counts()
+    odd = int(draws.get(IMPLAUSIBLE, 0))
+    if odd or PLAUSIBLE in draws:
         yield (
             "All draws are plausible beside ours."
             if not odd
-            else f"{count(odd, 'number')} of those drawn {'is' if odd == 1 else 'are'} not "
-            "plausible beside ours."
+            else f"{count(odd, 'draw')} {'is' if odd == 1 else 'are'} not plausible beside ours."
         )
     for name, words in (
         (NOT_COMPARABLE, "cannot be compared with this design"),

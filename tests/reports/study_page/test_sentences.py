@@ -69,11 +69,14 @@ def test_theorem_1_is_praised_only_where_it_is_right(evidence: Evidence) -> None
 
 def test_verdicts_are_counted(evidence: Evidence) -> None:
     frame = evidence.tables["reproduction_summary"].frame
-    counts = dict.fromkeys(frame.columns[2:], 0) | {"numbers": 10, "agrees": 7, "differs": 3}
+    counts = dict.fromkeys(frame.columns[2:], 0)
+    counts |= {"numbers": 30, "independent": 10, "agrees": 20, "differs": 5}
+    counts |= {"independent_agrees": 7, "independent_differs": 3}
     said = prose(agreement.section(altered(evidence, "reproduction_summary", **counts)))
     tables = (frame["method"] == "incremental").sum()
     assert f"{7 * tables} within 2 (agreement), 0 within 3 (close)" in said
     assert f"{3 * tables} beyond" in said
+    assert f"{10 * tables} of them are independent of one another" in said
 
 
 def test_chance_is_not_blamed_for_too_many_rejections(evidence: Evidence) -> None:

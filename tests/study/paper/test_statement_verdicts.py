@@ -364,6 +364,7 @@ def test_statements_are_judged_for_each_population_by_its_rows():
             "shapiro": ["normal"],
             "groups": ["mean_max_lepp", "sd_between", "mean_lepp"],
             "regressions": ["fitting", "model"],
+            "analogous": ["part"],
         }.items()
     }
     tables = {name: table_of(name, frame) for name, frame in empty.items()}
@@ -389,10 +390,39 @@ def test_the_note_says_by_what_it_is_judged():
         assert words in note
 
 
+ANALOGOUS = "analogous for all distributions"
+
+
+@pytest.mark.parametrize("equivalent", ["yes", "no", "undecided"])
+def test_distributions_are_analogous_if_their_means_are_equivalent(equivalent):
+    of_whole = {
+        "part": "whole", "comparisons": 60, "alike": 27, "furthest": 0.0048, "furthest_n": 10_000,
+        "furthest_from": "bivariate_normal", "equivalent": equivalent,
+    }  # fmt: skip
+    other = "no" if equivalent == "yes" else "yes"
+    of_interior = of_whole | {"part": "interior", "equivalent": other}
+    holds, evidence = judged(ANALOGOUS, analogous=[of_interior, of_whole])
+    assert holds == equivalent
+    assert evidence == (
+        "60 comparisons with the others: 27 alike; the largest difference is 0.48%, from the "
+        "bivariate normal distribution at 10,000 points"
+    )
+
+
+def test_one_distribution_is_analogous_to_nothing():
+    rows = [{"part": "interior", "equivalent": "yes"}]
+    assert "too few" in lacking(ANALOGOUS, analogous=rows)
+
+
 def test_every_statement_is_tested_here():
     tested = [EVERY_STEP, *MOMENTS, PREMISE, *TRENDS, BEST, LIMIT]
     tested += ["is between 2 and 4", "is at most sqrt 6", "The variances of the groups differ"]
-    tested += ["The groups are normal", "The means of the groups differ", "below 4 and above 2"]
+    tested += [
+        ANALOGOUS,
+        "The groups are normal",
+        "The means of the groups differ",
+        "below 4 and above 2",
+    ]
     for _, statement, _ in ASKED:
         assert sum(part in statement for part in tested) == 1
     assert len(tested) == len(ASKED)
