@@ -207,7 +207,7 @@ def _analogous(of: _Tables) -> Judged:
     row = of.rows(ANALOGOUS, part=WHOLE).first
     return row["equivalent"], (
         f"{row['comparisons']} comparisons with the others: {row[ALIKE]} {ALIKE}; the largest "
-        f"difference is {row['furthest']:.2%}, from the {row['furthest_from'].replace('_', ' ')} "
+        f"difference is {100 * row['furthest']:.2f} %, from the {row['furthest_from'].replace('_', ' ')} "
         f"distribution at {row['furthest_n']:,} points"
     )
 

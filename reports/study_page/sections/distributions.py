@@ -158,7 +158,7 @@ def _panel(evidence: Evidence, view: View, part: str) -> style.Panel:
         )
     return style.Panel(
         traces,
-        style.axis("Number of points", type="log"),
+        style.axis("Number of points", type="log", dtick="D2"),
         style.axis("Mean LEPP size"),
         f"{part.capitalize()} mesh" if part == WHOLE else f"{part.capitalize()}",
     )

@@ -309,7 +309,7 @@ def test_other_methods_are_no_failure_to_reproduce():
     note = "that they differ is no failure to reproduce"
     assert note in page("drawn").prose("scoreboard", "delaunay/uniform")
     assert note not in page("drawn").prose("scoreboard", "incremental/uniform")
-    assert "Published numbers met" not in page("drawn").tiles("delaunay/uniform")
+    assert "Independent published numbers met" not in page("drawn").tiles("delaunay/uniform")
 
 
 def test_completeness():

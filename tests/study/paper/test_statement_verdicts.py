@@ -404,7 +404,7 @@ def test_distributions_are_analogous_if_their_means_are_equivalent(equivalent):
     holds, evidence = judged(ANALOGOUS, analogous=[of_interior, of_whole])
     assert holds == equivalent
     assert evidence == (
-        "60 comparisons with the others: 27 alike; the largest difference is 0.48%, from the "
+        "60 comparisons with the others: 27 alike; the largest difference is 0.48 %, from the "
         "bivariate normal distribution at 10,000 points"
     )
 
