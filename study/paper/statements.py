@@ -205,10 +205,11 @@ def _constant_cost(of: _Tables) -> Judged:
 
 def _analogous(of: _Tables) -> Judged:
     row = of.rows(ANALOGOUS, part=WHOLE).first
+    other = row["furthest_from"].replace("_", " ")
     return row["equivalent"], (
         f"{row['comparisons']} comparisons with the others: {row[ALIKE]} {ALIKE}; the largest "
-        f"difference is {100 * row['furthest']:.2f} %, from the {row['furthest_from'].replace('_', ' ')} "
-        f"distribution at {row['furthest_n']:,} points"
+        f"difference is {100 * row['furthest']:.2f} %, from the {other} distribution at "
+        f"{row['furthest_n']:,} points"
     )
 
 
