@@ -33,7 +33,7 @@ def section(evidence: Evidence) -> Section:
         (
             Subsection(
                 "distributions-compared",
-                "",
+                "All pairs, at every number of points",
                 (
                     Prose(per_view(evidence.views, lambda view: _sentences(evidence, view))),
                     _figure(evidence),
