@@ -71,17 +71,19 @@ class Continuation:
         """Only the sizes from 2 on up to the first whose rate is not known well.
 
         A rate is known well where its interval is narrower than `thresholds.ROUGH_RATE`, and not
-        of no width. Of more sizes than a third of its degrees of freedom, a covariance is too
-        rough to be inverted.
+        of no width.
         """
         widths = 2 * self.half_widths
         rough = ~((widths > 0) & (widths < ROUGH_RATE))
-        upto = min(int(np.append(rough, True).argmax()), self.df // 3)
+        return self.first(int(np.append(rough, True).argmax()))
+
+    def first(self, number: int) -> Self:
+        """Only so many sizes."""
         return type(self)(
-            self.sizes[:upto],
-            self.reached[:upto],
-            self.rates[:upto],
-            self.covariance[:upto, :upto],
+            self.sizes[:number],
+            self.reached[:number],
+            self.rates[:number],
+            self.covariance[:number, :number],
             self.df,
         )
 
@@ -142,7 +144,7 @@ def _reached(counts: np.ndarray) -> np.ndarray:
 
 
 def _residuals(reached: np.ndarray, sizes: np.ndarray) -> np.ndarray:
-    """What the triangulations of one group have beyond the group's rates, a path."""
+    """Find what the triangulations of one group have beyond the group's rates, a path."""
     kept = reached[reached[:, SHORTEST] > 0]
     wide = np.zeros((len(kept), sizes[-1] + 2), dtype=np.int64)
     wide[:, : kept.shape[1]] = kept[:, : wide.shape[1]]
@@ -158,6 +160,8 @@ class LawFit:
 
     Attributes
     ----------
+    sizes : (s,) int64 ndarray
+        Numbers of triangles whose rates it is fitted to.
     coefficients : (k,) float64 ndarray
     standard_errors : (k,) float64 ndarray
     curve : callable
@@ -170,6 +174,7 @@ class LawFit:
         Decimal logarithm of the chance of as large a sum, if the law is true.
     """
 
+    sizes: np.ndarray
     coefficients: np.ndarray
     standard_errors: np.ndarray
     curve: Curve
@@ -179,14 +184,15 @@ class LawFit:
 
 
 def fit_constant(measured: Continuation) -> LawFit:
-    """Fit one rate to all sizes.
+    """Fit one rate to all sizes that are known well.
 
     Raises
     ------
     NotEnough
         If the sizes do not suffice.
     """
-    whiten = _whitening(measured, 1)
+    measured = _fitted(measured, 1)
+    whiten = _whitening(measured)
     ones, rates = whiten(np.ones(len(measured.rates))), whiten(measured.rates)
     rate = float(ones @ rates / (ones @ ones))
     return _law_fit(
@@ -200,7 +206,9 @@ def fit_constant(measured: Continuation) -> LawFit:
 
 
 def fit_power(measured: Continuation) -> LawFit:
-    """Fit c(k) = lambda / (k + b)^nu; the coefficients are lambda, b and nu.
+    """Fit c(k) = lambda / (k + b)^nu to the sizes that are known well.
+
+    The coefficients are lambda, b and nu.
 
     Raises
     ------
@@ -212,7 +220,8 @@ def fit_power(measured: Continuation) -> LawFit:
     Fitted are ln c(2), ln(2 + b) and nu, which are far less correlated than the coefficients;
     their errors follow by the delta method.
     """
-    whiten = _whitening(measured, 3)
+    measured = _fitted(measured, 3)
+    whiten = _whitening(measured)
     first = measured.sizes[0]
 
     def rates_of(theta: np.ndarray, sizes: np.ndarray) -> np.ndarray:
@@ -253,14 +262,22 @@ def fit_power(measured: Continuation) -> LawFit:
     )
 
 
-def _whitening(measured: Continuation, coefficients: int) -> Curve:
-    """Map that makes the rates uncorrelated, each of variance 1."""
-    df = len(measured.rates) - coefficients
-    if df < 1:
+def _fitted(measured: Continuation, coefficients: int) -> Continuation:
+    """Only the sizes known well, and no more than a third of the degrees of freedom.
+
+    The covariance of more is too rough to be inverted.
+    """
+    sure = measured.sure().first(measured.df // 3)
+    if len(sure.sizes) <= coefficients:
         raise NotEnough(
             f"{coefficients + 1} or more sizes are needed whose rates are known to within "
-            f"{ROUGH_RATE:g}, there are {len(measured.rates)}"
+            f"{ROUGH_RATE:g}, there are {len(sure.sizes)}"
         )
+    return sure
+
+
+def _whitening(measured: Continuation) -> Curve:
+    """Map that makes the rates uncorrelated, each of variance 1."""
     errors = measured.standard_errors
     root = np.linalg.cholesky(measured.covariance / np.outer(errors, errors))
     return lambda values: np.linalg.solve(root, values / errors)
@@ -287,6 +304,7 @@ def _law_fit(
     inflation = m * (m - 1) / ((m - q) * (m - q - 1))
     covariance = jacobian @ np.linalg.inv(slopes.T @ slopes) @ jacobian.T * inflation
     return LawFit(
+        sizes=measured.sizes,
         coefficients=coefficients,
         standard_errors=np.sqrt(np.diag(covariance)),
         curve=curve,
