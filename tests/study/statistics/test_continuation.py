@@ -122,7 +122,7 @@ def test_sizes_are_no_more_than_a_third_of_the_degrees_of_freedom(triangulations
 @pytest.mark.parametrize("triangulations", [2, 3])
 def test_few_triangulations_are_not_enough(triangulations):
     measured = continuation(drawn(law, 3, ((900_000, triangulations), (900_000, triangulations))))
-    with pytest.raises(NotEnough, match="there are [01]$"):
+    with pytest.raises(NotEnough, match=r"there are [01]$"):
         fit_constant(measured)
 
 
