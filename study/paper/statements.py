@@ -230,7 +230,7 @@ _ASKED: tuple[tuple[str, str, Callable[[_Tables], Judged]], ...] = (
     ),
     (
         "Theorem 2",
-        f"The standard deviation is at most sqrt {MOST_SD**2:g}",
+        f"The standard deviation is at most √{MOST_SD**2:g}",
         _bound("sd_inside", "", "highest_sd"),
     ),
     (
