@@ -314,7 +314,7 @@ def _law_fit(
     )
 
 
-def longest_expected(curve: Curve, paths: int) -> float:
+def longest_expected(curve: Curve, paths: int) -> int | None:
     """Size of which a law lets one expect fewer than one longer path.
 
     Parameters
@@ -326,8 +326,8 @@ def longest_expected(curve: Curve, paths: int) -> float:
 
     Returns
     -------
-    float
-        Smallest such size; NaN if the law has a chance of 1 or more before it is reached.
+    int or None
+        Smallest such size; None if the law has a chance of 1 or more before it is reached.
 
     Notes
     -----
@@ -339,8 +339,8 @@ def longest_expected(curve: Curve, paths: int) -> float:
     while True:
         chance = float(curve(np.array(size)))
         if not chance < 1:
-            return np.nan
+            return None
         longer *= chance
         if longer < 1:
-            return float(size)
+            return size
         size += 1
