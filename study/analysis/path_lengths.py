@@ -1,6 +1,6 @@
 """How paths go on and end: step by step, and against two laws of their lengths."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 import pandas as pd
@@ -72,9 +72,10 @@ LAW = Declaration(
     "has no triangles of size 1, whose longest edge is on the boundary.",
 )
 
-#: Laws of the chance to go on: the one that is fitted, one chance for all steps, fitted too, and
-#: Theorem 1's, the chance at the first step.
-FALLING, CONSTANT, THEOREM_1 = "λ / (k + b)^ν", "constant", "Theorem 1"
+#: Laws of the chance to go on: one that falls and one chance for all steps, both fitted; and what
+#: Theorem 1 makes of the chance at the first step and of that of all steps together.
+FALLING, CONSTANT = "λ / (k + b)^ν", "constant"
+FIRST_STEP, ALL_STEPS = "Theorem 1, first step", "Theorem 1, all steps"
 
 CONTINUATION = Declaration(
     "continuation",
@@ -127,12 +128,12 @@ PATH_LAWS = Declaration(
     note="Of the rates at the largest number of points, from k = 2 on as far as their intervals "
     f"are narrower than {ROUGH_RATE:g}. Paths run through the same triangles, so that "
     "neighbouring rates are correlated: the laws are fitted to the rates by generalised least "
-    "squares with their "
-    "covariance, ± are standard errors, and p allows for the covariance being estimated. A law is "
-    f"rejected where p is below {SIGNIFICANCE}. The falling law is fitted where a constant is "
-    "rejected. The longest path expected is the size of which the law, beyond the sizes that it is "
-    "fitted to, leaves fewer than one longer path; long paths come in bundles that "
-    "share most of their triangles, so that the longest one seen scatters more widely around it "
+    "squares with their covariance, ± are standard errors, and p allows for the covariance being "
+    f"estimated. A law is rejected where p is below {SIGNIFICANCE}. Where a constant is rejected, "
+    "none is given, and the falling law is fitted. The longest path expected is the size of which "
+    "the law, beyond the sizes that it is fitted to, leaves fewer than one longer path; long paths "
+    "come in bundles that share most of their triangles, so that the longest one seen scatters "
+    "more widely around it "
     "than that of independent paths would. " + INTERIOR_NOTE,
 )
 
@@ -265,20 +266,25 @@ def _laws(measured: Continuation, fits: dict[str, LawFit]) -> Iterator[Row]:
             "df": fit.df,
             "log10_p": fit.log10_p,
             "verdict": rejected(_rejected(fit)),
-            "longest_expected": longest_expected(fit.curve, measured.paths),
         }
-        names = ("scale", "shift", "exponent")
-        for name, value, error in zip(names, fit.coefficients, fit.standard_errors, strict=False):
-            row |= {name: value, f"{name}_error": error}
+        if law != CONSTANT or not _rejected(fit):
+            row["longest_expected"] = longest_expected(fit.curve, measured.paths)
+            names = ("scale", "shift", "exponent")
+            values = zip(names, fit.coefficients, fit.standard_errors, strict=False)
+            for name, value, error in values:
+                row |= {name: value, f"{name}_error": error}
         yield row
-    first = measured.rates[0]
-    yield common | {
-        "law": THEOREM_1,
-        "scale": first,
-        "longest_expected": longest_expected(
-            lambda sizes: np.full(sizes.shape, first), measured.paths
-        ),
-    }
+    all_steps = float(measured.rates @ measured.reached / measured.reached.sum())
+    for law, chance in ((FIRST_STEP, float(measured.rates[0])), (ALL_STEPS, all_steps)):
+        yield common | {
+            "law": law,
+            "scale": chance,
+            "longest_expected": longest_expected(_level(chance), measured.paths),
+        }
+
+
+def _level(chance: float) -> Callable[[np.ndarray], np.ndarray]:
+    return lambda sizes: np.full(np.shape(sizes), chance)
 
 
 def _continuation(one: Population, part: str) -> tuple[int, Continuation]:

@@ -22,14 +22,13 @@ outside of them, as they are outside of Theorem 1. The lower bound of 2 is the s
 
 from collections.abc import Iterator
 
-import numpy as np
 import pandas as pd
 
 from lepp import theory
 from lepp.theory import LEAST_P, LEAST_P_TEXT
 from study.analysis.building import Population, rows_by_population
 from study.analysis.path_lengths import counts_by_task
-from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Declaration, Row, select
+from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Declaration, Row
 from study.statistics.continuation import continuation
 from study.statistics.groups import NotEnough
 from study.statistics.intervals import at_least, mean_interval
@@ -191,7 +190,7 @@ def theorem_1(one: Population) -> Iterator[Row]:
 @rows_by_population(THEOREM_2, "Theorem 2")
 def theorem_2(one: Population) -> Iterator[Row]:
     """Test whether every step ends a path with a chance of 1/3 or more, and the bounds."""
-    histograms = dict(list(select(one.data.histograms, one.key).groupby("n_points")))
+    histogram = one.data.histogram(one.method, one.distribution)
     for size, group in one.by_size():
         p, low, high = mean_interval(shares(group, TYPES["C"]).to_numpy())
         mean_inside = int(group["mean_lepp"].between(LEAST_MEAN, MOST_MEAN).sum())
@@ -202,7 +201,7 @@ def theorem_2(one: Population) -> Iterator[Row]:
             "p_type_c": p,
             "p_low": low,
             "p_high": high,
-            **_every_step(counts_by_task(histograms[size], "lepp_size")),
+            **_every_step(histogram[histogram["n_points"] == size]),
             "lowest_mean": group["mean_lepp"].min(),
             "highest_mean": group["mean_lepp"].max(),
             "highest_sd": group["sd_lepp"].max(),
@@ -212,10 +211,10 @@ def theorem_2(one: Population) -> Iterator[Row]:
         }
 
 
-def _every_step(counts: np.ndarray) -> Row:
+def _every_step(histogram: pd.DataFrame) -> Row:
     """Judge whether every step of the paths ends with a chance of at least 1/3."""
     try:
-        measured = continuation([counts]).sure()
+        measured = continuation([counts_by_task(histogram, "lepp_size")]).sure()
     except NotEnough:  # no path takes a step
         return {"premise": UNDECIDED}
     if not len(measured.sizes):

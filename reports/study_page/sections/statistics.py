@@ -13,10 +13,10 @@ from reports.text.numbers import count, listed, show
 from reports.text.words import LEVEL
 from study.analysis.bound_tests import BOUNDS, LOWER_BOUND, UPPER_BOUND
 from study.analysis.group_summaries import GROUPS
-from study.analysis.pairwise_comparisons import NOT_SHOWN, PAIRS
+from study.analysis.pairwise_comparisons import PAIRS
 from study.analysis.variance_analysis import ANOVA, OMEGA_SQUARED
 from study.statistics.thresholds import SIGNIFICANCE
-from study.statistics.verdicts import REJECTED, YES
+from study.statistics.verdicts import NOT_SHOWN, REJECTED, YES
 
 
 def section(evidence: Evidence) -> Section:

@@ -10,6 +10,7 @@ from lepp import INTERIOR_LAYER
 from study.analysis import analyse
 
 SIZES, REPLICATES = (1000, 4000), 12
+THEOREM_1 = ["Theorem 1, first step", "Theorem 1, all steps"]
 
 
 def falling(k):
@@ -79,7 +80,7 @@ def test_rates_are_those_of_the_part_at_the_largest_size(both):
 
 def test_the_falling_law_comes_back_and_the_constant_is_rejected(both):
     laws = laws_of(both[2], "interior")
-    assert laws.index.tolist() == ["constant", "λ / (k + b)^ν", "Theorem 1"]
+    assert laws.index.tolist() == ["constant", "λ / (k + b)^ν", *THEOREM_1]
     assert laws["verdict"].iloc[:2].tolist() == ["rejected", "not rejected"]
     law = laws.loc["λ / (k + b)^ν"]
     for name, truth in (("scale", 0.9), ("shift", 0.35), ("exponent", 0.5)):
@@ -96,7 +97,7 @@ def test_the_falling_law_comes_back_and_the_constant_is_rejected(both):
 
 def test_a_truly_constant_chance_is_not_rejected():
     laws = laws_of(made(constant, constant)[2], "interior")
-    assert laws.index.tolist() == ["constant", "Theorem 1"]
+    assert laws.index.tolist() == ["constant", *THEOREM_1]
     assert laws.loc["constant", "verdict"] == "not rejected"
     assert 10 ** laws.loc["constant", "log10_p"] > 0.05
     assert abs(laws.loc["constant", "scale"] - 0.55) < 3 * laws.loc["constant", "scale_error"]
@@ -108,17 +109,22 @@ def test_longest_paths_by_summing_the_laws(both):
     paths = rows["reached"].iloc[0]
     assert set(laws["paths"]) == {paths}
     assert set(laws["longest_seen"]) == {rows["lepp_size"].max()}
+    mean = 1 + rows["reached"].sum() / paths
     k = np.arange(2, 100)
     law = laws.loc["λ / (k + b)^ν"]
     curve = law["scale"] / (k + law["shift"]) ** law["exponent"]
     for name, rates in (
         ("λ / (k + b)^ν", curve),
-        ("constant", laws.loc["constant", "scale"] + 0 * k),
-        ("Theorem 1", rows["rate"].iloc[0] + 0 * k),
+        (THEOREM_1[0], rows["rate"].iloc[0] + 0 * k),
+        (THEOREM_1[1], 1 - 1 / (mean - 1) + 0 * k),
     ):
         assert laws.loc[name, "longest_expected"] == k[paths * np.cumprod(rates) < 1][0]
     assert abs(law["longest_expected"] - law["longest_seen"]) <= 3
-    assert laws.loc["Theorem 1", "longest_expected"] > law["longest_seen"] + 5
+    assert (laws.loc[THEOREM_1, "longest_expected"] > law["longest_seen"] + 5).all()
+    assert laws.loc["constant", ["scale", "scale_error", "longest_expected"]].isna().all()
+    level = laws_of(made(constant, constant)[2], "interior").loc["constant"]
+    expected = k[level["paths"] * level["scale"] ** (k - 1) < 1][0]
+    assert level["longest_expected"] == expected
 
 
 def test_what_cannot_be_had_is_said():
@@ -130,6 +136,6 @@ def test_what_cannot_be_had_is_said():
     why = missing["why"].tolist()
     assert why[0].startswith("whole: 2 or more sizes are needed whose rates are known to within")
     assert why[1] == "interior: no triangulation has it"
-    assert laws_of(tables, "whole").index.tolist() == ["Theorem 1"]
+    assert laws_of(tables, "whole").index.tolist() == THEOREM_1
     assert tables["continuation"].rows(part="interior").empty
     assert tables["continuation"].frame["low"].isna().all()
