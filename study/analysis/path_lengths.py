@@ -74,7 +74,7 @@ LAW = Declaration(
 
 #: Laws of the chance to go on: one that falls and one chance for all steps, both fitted; and what
 #: Theorem 1 makes of the chance at the first step and of that of all steps together.
-FALLING, CONSTANT = "λ / (k + b)^ν", "constant"
+FALLING, CONSTANT = "λ / (k + b)ᵃ", "constant"
 FIRST_STEP, ALL_STEPS = "Theorem 1, first step", "Theorem 1, all steps"
 
 CONTINUATION = Declaration(
@@ -115,9 +115,9 @@ PATH_LAWS = Declaration(
         Column("scale_error", "± of λ", "", "g2"),
         Column("shift", "b", "", "fixed3"),
         Column("shift_error", "± of b", "", "g2"),
-        Column("exponent", "ν", "", "fixed4"),
-        Column("exponent_error", "± of ν", "", "g2"),
-        Column("chi_squared", "χ²", "", "g4"),
+        Column("exponent", "a", "", "fixed4"),
+        Column("exponent_error", "± of a", "", "g2"),
+        Column("chi_squared", "χ²", "", "g3"),
         Column("df", "Df", "", "int"),
         Column("log10_p", "log10 p", "", "log10p"),
         Column("verdict", "The law"),

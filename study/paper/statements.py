@@ -99,7 +99,7 @@ def _constant_rate(of: _Tables) -> Judged:
         f"The chance to go on is {show(first['rate'], 'fixed4')} after {first['lepp_size']} "
         f"triangles and {show(last['rate'], 'fixed4')} after {last['lepp_size']} ({test.name}, "
         f"{test['n_points']:,} points). One chance for all: "
-        f"χ² = {show(test['chi_squared'], 'g4')} on {test['df']} degrees of freedom, "
+        f"χ² = {show(test['chi_squared'], 'g3')} on {test['df']} degrees of freedom, "
         f"p = {show(test['log10_p'], 'log10p')}"
         f"{': no p fits' if rejected else ''}. {_moments(of)}"
     )

@@ -1,7 +1,7 @@
 """The chance that a path goes on, size by size, and laws that are fitted to it.
 
 Of the paths that have at least k triangles, a share c(k) has more. Theorem 1 takes c to be
-constant, which makes the sizes geometric. The law lambda / (k + b)^nu lets it fall.
+constant, which makes the sizes geometric. The law lambda / (k + b)^a lets it fall.
 """
 
 from collections.abc import Callable, Sequence
@@ -22,6 +22,9 @@ SHORTEST = 2
 #: Range of ln(2 + b) in which the law is looked for. Towards its upper end the law becomes an
 #: exponential in k, towards its lower end a constant after a first, different rate.
 _LEAST_SHIFT, _MOST_SHIFT = np.log(0.05), np.log(200.0)
+
+#: Least eigenvalue of a correlation matrix that is inverted.
+_SINGULAR = 1e-9
 
 Curve = Callable[[np.ndarray], np.ndarray]
 
@@ -206,9 +209,9 @@ def fit_constant(measured: Continuation) -> LawFit:
 
 
 def fit_power(measured: Continuation) -> LawFit:
-    """Fit c(k) = lambda / (k + b)^nu to the sizes that are known well.
+    """Fit c(k) = lambda / (k + b)^a to the sizes that are known well.
 
-    The coefficients are lambda, b and nu.
+    The coefficients are lambda, b and a.
 
     Raises
     ------
@@ -217,28 +220,43 @@ def fit_power(measured: Continuation) -> LawFit:
 
     Notes
     -----
-    Fitted are ln c(2), ln(2 + b) and nu, which are far less correlated than the coefficients;
+    Fitted are ln c(2), ln(2 + b) and a, which are far less correlated than the coefficients;
     their errors follow by the delta method.
     """
     measured = _fitted(measured, 3)
     whiten = _whitening(measured)
-    first = measured.sizes[0]
+    best = _least_squares(lambda theta: whiten(measured.rates - _power(theta, measured.sizes)))
+    log_first, log_base, exponent = best.x
+    if best.active_mask.any() or np.linalg.matrix_rank(best.jac) < len(best.x):
+        raise NotEnough("the rates do not determine the shift b of the law")
+    base, scale = np.exp(log_base), np.exp(log_first + exponent * log_base)
+    by_theta = [[scale, scale * exponent, scale * log_base], [0.0, base, 0.0], [0.0, 0.0, 1.0]]
+    return _law_fit(
+        measured,
+        np.array([scale, base - SHORTEST, exponent]),
+        np.array(by_theta),
+        -best.jac,
+        best.fun,
+        lambda sizes: _power(best.x, np.asarray(sizes)),
+    )
 
-    def rates_of(theta: np.ndarray, sizes: np.ndarray) -> np.ndarray:
-        shift = np.exp(theta[1])
-        return np.exp(theta[0] - theta[2] * np.log1p((sizes - first) / shift))
 
-    def residuals(theta: np.ndarray) -> np.ndarray:
-        return whiten(measured.rates - rates_of(theta, measured.sizes))
+def _power(theta: np.ndarray, sizes: np.ndarray) -> np.ndarray:
+    """Rates of the law with ln c(2), ln(2 + b) and a."""
+    log_first, log_base, exponent = theta
+    return np.exp(log_first - exponent * np.log1p((sizes - SHORTEST) / np.exp(log_base)))
 
-    def from_shift(start: float) -> optimize.OptimizeResult:
-        fixed = optimize.least_squares(
-            lambda two: residuals(np.array([two[0], start, two[1]])),
-            [np.log(measured.rates[0]), 0.5],
+
+def _least_squares(residuals: Curve) -> optimize.OptimizeResult:
+    """Fit the falling law from several starts, the shift held fast at first."""
+
+    def fit_from(log_base: float) -> optimize.OptimizeResult:
+        held = optimize.least_squares(
+            lambda two: residuals(np.array([two[0], log_base, two[1]])), [-0.5, 0.5]
         )
         return optimize.least_squares(
             residuals,
-            [fixed.x[0], start, fixed.x[1]],
+            [held.x[0], log_base, held.x[1]],
             bounds=([-np.inf, _LEAST_SHIFT, -np.inf], [np.inf, _MOST_SHIFT, np.inf]),
             xtol=1e-12,
             ftol=1e-12,
@@ -246,20 +264,7 @@ def fit_power(measured: Continuation) -> LawFit:
         )
 
     starts = np.linspace(_LEAST_SHIFT, _MOST_SHIFT, 5)[1:-1]
-    best = min(map(from_shift, starts), key=lambda fitted: fitted.cost)
-    a, shift, nu = best.x
-    if best.active_mask.any() or np.linalg.matrix_rank(best.jac) < len(best.x):
-        raise NotEnough("the rates do not determine the shift b of the law")
-    base = np.exp(shift)
-    scale = np.exp(a + nu * shift)
-    return _law_fit(
-        measured,
-        np.array([scale, base - first, nu]),
-        np.array([[scale, scale * nu, scale * shift], [0.0, base, 0.0], [0.0, 0.0, 1.0]]),
-        -best.jac,
-        best.fun,
-        lambda sizes: rates_of(best.x, np.asarray(sizes)),
-    )
+    return min(map(fit_from, starts), key=lambda fitted: fitted.cost)
 
 
 def _fitted(measured: Continuation, coefficients: int) -> Continuation:
@@ -279,7 +284,10 @@ def _fitted(measured: Continuation, coefficients: int) -> Continuation:
 def _whitening(measured: Continuation) -> Curve:
     """Map that makes the rates uncorrelated, each of variance 1."""
     errors = measured.standard_errors
-    root = np.linalg.cholesky(measured.covariance / np.outer(errors, errors))
+    correlation = measured.covariance / np.outer(errors, errors)
+    if np.linalg.eigvalsh(correlation)[0] < _SINGULAR:
+        raise NotEnough("the triangulations do not differ enough for a covariance of the rates")
+    root = np.linalg.cholesky(correlation)
     return lambda values: np.linalg.solve(root, values / errors)
 
 

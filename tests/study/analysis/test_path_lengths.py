@@ -80,9 +80,9 @@ def test_rates_are_those_of_the_part_at_the_largest_size(both):
 
 def test_the_falling_law_comes_back_and_the_constant_is_rejected(both):
     laws = laws_of(both[2], "interior")
-    assert laws.index.tolist() == ["constant", "λ / (k + b)^ν", *THEOREM_1]
+    assert laws.index.tolist() == ["constant", "λ / (k + b)ᵃ", *THEOREM_1]
     assert laws["verdict"].iloc[:2].tolist() == ["rejected", "not rejected"]
-    law = laws.loc["λ / (k + b)^ν"]
+    law = laws.loc["λ / (k + b)ᵃ"]
     for name, truth in (("scale", 0.9), ("shift", 0.35), ("exponent", 0.5)):
         assert abs(law[name] - truth) < 3 * law[f"{name}_error"]
         assert law[f"{name}_error"] < 0.3
@@ -111,10 +111,10 @@ def test_longest_paths_by_summing_the_laws(both):
     assert set(laws["longest_seen"]) == {rows["lepp_size"].max()}
     mean = 1 + rows["reached"].sum() / paths
     k = np.arange(2, 100)
-    law = laws.loc["λ / (k + b)^ν"]
+    law = laws.loc["λ / (k + b)ᵃ"]
     curve = law["scale"] / (k + law["shift"]) ** law["exponent"]
     for name, rates in (
-        ("λ / (k + b)^ν", curve),
+        ("λ / (k + b)ᵃ", curve),
         (THEOREM_1[0], rows["rate"].iloc[0] + 0 * k),
         (THEOREM_1[1], 1 - 1 / (mean - 1) + 0 * k),
     ):

@@ -51,7 +51,7 @@ def laws(verdict, part="interior", log10_p=-40.6):
     other = {"rejected": "not rejected", "not rejected": "rejected"}[verdict]
     return [
         row | {"law": "constant", "verdict": verdict},
-        row | {"law": "λ / (k + b)^ν", "verdict": other, "chi_squared": 5.7, "log10_p": -0.1},
+        row | {"law": "λ / (k + b)ᵃ", "verdict": other, "chi_squared": 5.7, "log10_p": -0.1},
         row | {"law": "Theorem 1", "verdict": "", "upto_size": 2},
     ]
 

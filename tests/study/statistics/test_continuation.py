@@ -126,6 +126,13 @@ def test_few_triangulations_are_not_enough(triangulations):
         fit_constant(measured)
 
 
+def test_triangulations_that_differ_in_one_way_are_not_enough():
+    base = np.array([0, 10, 1200, 600, 150, 30, 6])
+    counts = np.array([200 * base + k for k in range(12)])
+    with pytest.raises(NotEnough, match="do not differ enough"):
+        fit_constant(continuation([counts]))
+
+
 def clustered(seed):
     """Rates that are correlated: paths together with those of their second triangles."""
     groups = drawn(law, seed, ((100_000, 8), (400_000, 8)))
