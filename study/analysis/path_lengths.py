@@ -77,6 +77,9 @@ LAW = Declaration(
 FALLING, CONSTANT = "λ / (k + b)ᵃ", "constant"
 FIRST_STEP, ALL_STEPS = "Theorem 1, first step", "Theorem 1, all steps"
 
+#: What is said to be missing where the chances to go on, or a law of them, cannot be had.
+LAW_MISSING = "law of path lengths"
+
 CONTINUATION = Declaration(
     "continuation",
     "Chance to go on after k triangles",
@@ -208,7 +211,7 @@ def continuation_laws(study: Study) -> Iterator[Table]:
     rates: list[Row] = []
     laws: list[Row] = []
     for method, distribution in study.data.populations:
-        one = Population(study, method, distribution, "law of path lengths")
+        one = Population(study, method, distribution, LAW_MISSING)
         for part in PARTS:
             try:
                 n_points, measured = _continuation(one, part)

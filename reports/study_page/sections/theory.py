@@ -39,6 +39,9 @@ from study.statistics.verdicts import NO, REJECTED, YES
 #: The size from which on paths are called long.
 LONG = 8
 
+#: Width of an interval from which on a chance is not drawn.
+DRAWN = 0.5
+
 #: The parts of a mesh in words.
 _WHERE = {INTERIOR: "in the interior", WHOLE: "in the whole mesh"}
 
@@ -310,7 +313,11 @@ def _continuation(evidence: Evidence) -> FigureBlock:
         rows = _measured(evidence, view, part)
         if rows.empty:
             return None
-        traces = [_measured_rates(rows, f"measured, {_WHERE[part]}", 0)]
+        traces = [_measured_rates(rows, f"measured, {_WHERE[part]}", style.marker(0))]
+        if part == INTERIOR:
+            whole = _measured(evidence, view, WHOLE)
+            behind = style.marker(2, 11, symbol="square-open")
+            traces.insert(0, _measured_rates(whole, f"measured, {_WHERE[WHOLE]}", behind))
         if rows["fitted"].notna().any():
             traces.append(
                 style.scatter(
@@ -322,9 +329,6 @@ def _continuation(evidence: Evidence) -> FigureBlock:
                     hovertemplate="%{x} triangles: %{y:.4f}<extra>law</extra>",
                 )
             )
-        if part == INTERIOR:
-            whole = _measured(evidence, view, WHOLE)
-            traces.append(_measured_rates(whole, f"measured, {_WHERE[WHOLE]}", 2))
         first = float(rows["constant"].iloc[0])
         return style.plot(
             *traces,
@@ -366,18 +370,18 @@ def _continuation(evidence: Evidence) -> FigureBlock:
 
 
 def _measured(evidence: Evidence, view: View, part: str) -> pd.DataFrame:
-    """Return the chances to go on that have an interval."""
+    """Return the chances to go on that are known well enough to be drawn."""
     rows = evidence.rows(CONTINUATION, view, part=part).frame
-    return rows[rows["low"].notna()]
+    return rows[rows["high"] - rows["low"] < DRAWN]
 
 
-def _measured_rates(rows: pd.DataFrame, name: str, series: int) -> Spec:
+def _measured_rates(rows: pd.DataFrame, name: str, marker: Spec) -> Spec:
     return style.scatter(
         x=rows["lepp_size"],
         y=rows["rate"],
         mode="markers",
         name=name,
-        marker=style.marker(series),
+        marker=marker,
         error_y={
             "type": "data",
             "symmetric": False,
@@ -385,7 +389,7 @@ def _measured_rates(rows: pd.DataFrame, name: str, series: int) -> Spec:
             "arrayminus": rows["rate"] - rows["low"],
             "thickness": 1.5,
             "width": 3,
-            "color": style.SERIES[series],
+            "color": marker["color"],
         },
         hovertemplate="%{x} triangles: %{y:.4f}<extra>" + name + "</extra>",
     )
@@ -453,7 +457,7 @@ def _longest(evidence: Evidence, view: View, part: str) -> str:
     ]
     first = laws.iloc[0]
     told = (
-        f"The longest of its {large(first['paths'])} paths at {first['n_points']:,} points has "
+        f"The longest of {large(first['paths'])} such paths at {first['n_points']:,} points has "
         f"{first['longest_seen']} triangles"
     )
     return f"{told}; expected are {listed(expected)}." if expected else f"{told}."

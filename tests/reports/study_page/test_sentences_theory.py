@@ -289,7 +289,7 @@ def test_longest_paths_seen_and_expected():
         page("falling chance")
         .finding("figure-continuation")
         .endswith(
-            f"The longest of its {paths / 10**6:.3g} million paths at 8,000 points has {longest} "
+            f"The longest of {paths / 10**6:.3g} million such paths at 8,000 points has {longest} "
             f"triangles; expected are {expected[0]} by this law, {expected[1]} by Theorem 1 with "
             f"the chance at the first step and {expected[2]} by Theorem 1 with that of all steps."
         )
