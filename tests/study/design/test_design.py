@@ -26,7 +26,7 @@ def test_beyond_goes_to_ten_million_points_with_more_sets_of_the_small_ones():
     beyond = Design.from_preset("beyond")
     assert beyond.sizes[-1] == 10_000_000
     assert beyond.repetitions_by_size[10_000] == 200
-    assert beyond.repetitions_by_size[10_000_000] == 16
+    assert beyond.repetitions_by_size[10_000_000] == 32
     sets = sum(beyond.repetitions_by_size.values())
     assert beyond.n_triangulations == 2 * 4 * sets
     assert beyond.n_points == 8 * sum(n * r for n, r in beyond.repetitions_by_size.items())
