@@ -1,7 +1,7 @@
 """The page's data block: every number once, as a file has it and as a reader sees it, compressed.
 
 A table's cells travel as the texts of its CSV file and, where those differ, as the texts that
-`reports.text.numbers` makes of them. A figure's arrays that are columns of a table are references
+`study.analysis.numbers` makes of them. A figure's arrays that are columns of a table are references
 to them: ``{"$": [table, column, where]}``.
 """
 

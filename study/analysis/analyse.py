@@ -51,6 +51,7 @@ BUILDERS = (
     theorems.theorem_2,
     path_lengths.termination,
     path_lengths.law,
+    path_lengths.continuation_laws,
     terminal_regions.regions,
     terminal_regions.region_sizes,
     method_comparison.methods,

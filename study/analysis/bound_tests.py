@@ -42,7 +42,8 @@ BOUNDS = Declaration(
     note="One-sided one-sample t tests; they suppose independent triangulations and nearly normal "
     "means. log10 p is computed where p itself is too small for a double. Bonferroni's "
     "correction counts all {tests} tests of the design. The interval of the mean says more: "
-    "how far from the bounds the mean is.",
+    f"how far from the bounds the mean is. That it is above {LOWER_BOUND} follows by definition: "
+    "a path in the interior has two triangles or more, and only the few at the boundary have one.",
 )
 
 

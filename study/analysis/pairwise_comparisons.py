@@ -8,9 +8,7 @@ from study.analysis.building import Population, rows_by_population
 from study.analysis.table import DISTRIBUTION, METHOD, Column, Declaration, Row
 from study.statistics.games_howell import games_howell
 from study.statistics.thresholds import LEVEL, SIGNIFICANCE
-from study.statistics.verdicts import YES
-
-NOT_SHOWN = "not shown"
+from study.statistics.verdicts import NOT_SHOWN, YES
 
 PAIRS = Declaration(
     "pairs",

@@ -33,7 +33,8 @@ ANOVA = Declaration(
     ),
     note="H0: all groups have the same mean LEPP size. The classical test supposes equal "
     "variances, Welch's does not, Kruskal-Wallis compares ranks (p from its chi-squared limit). "
-    "Effect sizes are shares of the variance that the number of points accounts for; "
+    "Effect sizes are shares of the variance between triangulations that the number of points "
+    "accounts for: they belong to the design, since other sizes, or more of some, give others; "
     "eta squared is the sample's, omega squared corrects its bias; their intervals come from "
     "the noncentral F distribution and are those of the population's share, for which the "
     "sample's eta squared is a little high. "

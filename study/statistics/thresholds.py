@@ -14,15 +14,9 @@ AGREES_UP_TO, CLOSE_UP_TO = 2.0, 3.0
 #: A p of all groups of a published table together below which the table differs from ours.
 TABLE_DIFFERS_BELOW = 0.01
 
-#: Relative difference up to which a formula of Theorem 1 is said to hold.
-WITHIN_ONE_PERCENT, ONE_PERCENT = 0.01, "one per cent"
 #: Means that differ by less than this, relatively, are as good as equal: the margin of equivalence.
 EQUIVALENT_WITHIN = 0.01
-#: Rates of paths that lie within this of one another are called constant.
-CONSTANT_RATE, A_HUNDREDTH = 0.01, "a hundredth"
-#: Width of an interval from which on a rate of paths is too rough to be a step of a trend.
+#: Width of an interval from which on a rate of paths is too rough to be judged.
 ROUGH_RATE = 0.05
-#: Fewer paths than this say little of a termination rate.
-MANY_PATHS = 10_000
 #: A difference of AIC beyond which the worse model has next to no support.
 CLEAR_AIC = 10.0

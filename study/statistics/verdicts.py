@@ -4,6 +4,8 @@ from collections.abc import Iterable
 
 YES, NO, UNDECIDED = "yes", "no", "undecided"
 REJECTED, NOT_REJECTED = "rejected", "not rejected"
+#: Verdict on a statement that a test could have shown, and did not: it may be true or not.
+NOT_SHOWN = "not shown"
 
 
 def rejected(holds: bool) -> str:

@@ -8,6 +8,7 @@ import pandas as pd
 from frames import design
 from page_text import PageText, drawn, page_text
 
+from lepp import INTERIOR_LAYER
 from study.results.store import Results
 
 DESIGN = design(
@@ -90,18 +91,44 @@ def page(name: str) -> PageText:
     return page_text(run(name))
 
 
-def geometric(histograms: Frame) -> Frame:
-    """Draw every histogram from a geometric law, of far more triangles than there are."""
-    keys = histograms[["method", "distribution", "n_points", "replicate"]].drop_duplicates()
-    sizes = np.arange(2, 10)
-    law = 0.5 ** (sizes - 1)
-    law[-1] *= 2  # with all that are longer
-    rows = []
-    for place, key in enumerate(keys.to_dict("records")):
-        counts = np.random.default_rng(place).multinomial(2_000_000, law)
-        drawn_sizes = zip(sizes.tolist(), counts.tolist(), strict=True)
-        rows += [{**key, "lepp_size": s, "count": c} for s, c in drawn_sizes if c]
-    return pd.DataFrame(rows)
+#: Paths of each triangulation whose chances to go on are made; far more than it has triangles.
+PATHS = 400_000
+
+
+def going_on(chance: Callable, layered: bool = False) -> Callable:
+    """Draw every histogram anew, of paths that go on after k triangles with a chance of k."""
+    rates = chance(np.arange(2.0, 14))
+    law = np.append(1, np.cumprod(rates)) * np.append(1 - rates, 1)
+
+    def change(frame: Frame) -> Frame:
+        keys = frame[["method", "distribution", "n_points", "replicate"]].drop_duplicates()
+        rows = []
+        for place, key in enumerate(keys.to_dict("records")):
+            counts = np.random.default_rng(place).multinomial(PATHS, law)
+            rows += [{**key, "lepp_size": 2 + k, "count": c} for k, c in enumerate(counts) if c]
+        made = pd.DataFrame(rows)
+        return made.assign(layer=INTERIOR_LAYER) if layered else made
+
+    return change
+
+
+def no_interior(layers: Frame) -> Frame:
+    return layers[layers["layer"] < INTERIOR_LAYER]
+
+
+def with_chance(chance: Callable) -> dict[str, Callable]:
+    return {"histograms": going_on(chance), "layers": going_on(chance, layered=True)}
+
+
+def falling_law(k: np.ndarray) -> np.ndarray:
+    return 0.9 / (k + 0.35) ** 0.5
+
+
+def short_or_long(histograms: Frame) -> Frame:
+    """Give small sets the sizes of short paths, large ones those of long paths."""
+    large = histograms["n_points"] > 2000
+    parts = (histogram_of(SHORT)(histograms[~large]), histogram_of(LONG)(histograms[large]))
+    return pd.concat(parts, ignore_index=True)
 
 
 def out_of_bounds(results: Frame) -> Frame:
@@ -135,8 +162,6 @@ def large_regions(regions: Frame) -> Frame:
 
 
 LONG = {1: 10, 2: 300, 3: 300, 4: 300, 5: 200, 9: 250, 12: 160}
-UNEVEN = {1: 10, 2: 600, 3: 800, 4: 150, 5: 250, 6: 200}
-FALLING = {1: 10, 2: 900, 3: 300, 4: 160, 5: 100, 6: 80, 9: 400}
 SHORT = {1: 10, 2: 1200, 3: 600, 4: 150, 5: 30, 6: 6}
 
 CHANGES: dict[str, dict[str, Callable]] = {
@@ -146,16 +171,23 @@ CHANGES: dict[str, dict[str, Callable]] = {
     "falling": {"results": with_means(falling), "regions": large_regions},
     "narrowing": {"results": with_means(growing, lambda n: 40 / n)},
     "widening": {"results": with_means(level, lambda n: n / 1e6)},
-    "p falls": {"results": falling_shares},
+    "p falls": {"results": falling_shares, "histograms": short_or_long},
     "low p": {"results": with_shares(0.30), "histograms": histogram_of(LONG)},
     "high p": {"results": with_shares(0.50), "histograms": histogram_of(SHORT)},
     "rare long paths": {
         "results": with_shares(0.50),
         "histograms": histogram_of(SHORT | {9: 8}),
     },
-    "constant rates": {"histograms": geometric},
-    "uneven rates": {"histograms": histogram_of(UNEVEN)},
-    "falling rates": {"histograms": histogram_of(FALLING)},
+    "constant chance": with_chance(lambda k: 0.5 + 0 * k),
+    "falling chance": with_chance(falling_law),
+    "falling chance, no interior": {
+        "histograms": going_on(falling_law),
+        "layers": no_interior,
+    },
+    "rising chance": with_chance(lambda k: 0.4 + 0.03 * k),
+    "crooked chance": with_chance(lambda k: falling_law(k) + 0.02 * (k % 2)),
+    "uneven chance": with_chance(lambda k: 0.5 + 0.05 * (k % 2)),
+    "nearly falling chance": with_chance(lambda k: np.where(k < 6, 0.7 - 0.05 * k, 0.45)),
     "out of bounds": {"results": out_of_bounds},
     "near 4": {"results": with_means(lambda n: 3.99 + 0 * n, lambda n: 0.05 + 0 * n)},
     "Theorem 1": {"results": moments(mean_lepp=1.001, sd_lepp=0.999)},

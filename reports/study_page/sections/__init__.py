@@ -19,6 +19,7 @@ from reports.study_page.sections import (
 from reports.text.numbers import count, large, listed
 from study.analysis.analyse import MISSING
 from study.analysis.group_summaries import OVERVIEW, TRIANGULATIONS_MISSING
+from study.analysis.path_lengths import LAW_MISSING
 from study.analysis.regressions import SATURATION_MISSING
 
 TITLE = "How far does one refinement spread?"
@@ -67,7 +68,8 @@ def alarms(evidence: Evidence) -> list[str]:
         f"{_whose(evidence, row.distribution, row.method)}{row.why}." for row in tasks.itertuples()
     ]
     # That means show no saturation is a finding, and what was not asked for is not missed.
-    others = rows.frame[~rows["what"].isin({TRIANGULATIONS_MISSING, *SATURATION_MISSING})]
+    no_alarm = {TRIANGULATIONS_MISSING, *SATURATION_MISSING, LAW_MISSING}
+    others = rows.frame[~rows["what"].isin(no_alarm)]
     others = others[others["distribution"].isin(evidence.design.distributions)]
     lacking: dict[str, list[str]] = {}
     for row in others.drop_duplicates(["what", "distribution"]).itertuples():

@@ -61,7 +61,10 @@ def _assumptions(evidence: Evidence, view: View) -> list[str] | None:
                 f"Whether the groups' variances are equal depends on the centre: {numbers}."
             )
         else:
-            sentences.append(f"Equal variances of the groups are not rejected: {numbers}.")
+            sentences.append(
+                "Equal variances of the groups are not rejected, which does not show that they "
+                f"are equal: {numbers}."
+            )
     shapiro = evidence.rows(SHAPIRO, view)
     if not shapiro.empty:
         below = int((shapiro["p"] < SIGNIFICANCE).sum())
@@ -69,7 +72,8 @@ def _assumptions(evidence: Evidence, view: View) -> list[str] | None:
         sentences.append(
             f"Shapiro-Wilk gives p below {SIGNIFICANCE} in {none_or(below)} of "
             f"{count(len(shapiro), 'group')}; {ONE_IN_TWENTY} would by chance. After Holm's "
-            f"correction {none_or(rejected)} {'is' if rejected == 1 else 'are'} rejected as normal."
+            f"correction {none_or(rejected)} {'is' if rejected == 1 else 'are'} rejected as normal"
+            + ("." if rejected else ", which does not show that they are normal.")
         )
     return sentences or None
 

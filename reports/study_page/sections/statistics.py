@@ -13,10 +13,10 @@ from reports.text.numbers import count, listed, show
 from reports.text.words import LEVEL
 from study.analysis.bound_tests import BOUNDS, LOWER_BOUND, UPPER_BOUND
 from study.analysis.group_summaries import GROUPS
-from study.analysis.pairwise_comparisons import NOT_SHOWN, PAIRS
-from study.analysis.variance_analysis import ANOVA, OMEGA_SQUARED
+from study.analysis.pairwise_comparisons import PAIRS
+from study.analysis.variance_analysis import ANOVA, WELCH
 from study.statistics.thresholds import SIGNIFICANCE
-from study.statistics.verdicts import REJECTED, YES
+from study.statistics.verdicts import NOT_SHOWN, REJECTED, YES
 
 
 def section(evidence: Evidence) -> Section:
@@ -94,13 +94,16 @@ def _anova(evidence: Evidence, view: View) -> list[str] | None:
         else "The tests disagree on whether the mean LEPP size depends on the number of points"
     )
     sentences = [f"{verdict}, for {view.distribution_word} points; p by test: {tests}."]
-    effect = evidence.one(ANOVA, view, effect=OMEGA_SQUARED)
+    effect = evidence.one(ANOVA, view, test=WELCH)
     groups = evidence.rows(GROUPS, view)["mean_lepp"].dropna()
     if effect is not None and len(groups) > 1:
         sentences.append(
-            f"The number of points accounts for {show(effect['effect_size'], 'percent0')} of the "
-            f"variance between triangulations. The dependence is small in itself: the groups' "
-            f"means span {show(groups.min(), 'fixed4')} to {show(groups.max(), 'fixed4')}."
+            "In this design, with these numbers of points and so many triangulations of each, the "
+            f"number of points accounts for {show(effect['effect_size'], 'percent0')} of the "
+            "variance between triangulations (ω² of Welch's test, which does without equal "
+            "variances); another design has another share. What does not depend on the design are "
+            f"the groups' means, which span {show(groups.min(), 'fixed4')} to "
+            f"{show(groups.max(), 'fixed4')}."
         )
     return sentences
 
@@ -185,7 +188,9 @@ def _bounds(evidence: Evidence, view: View) -> list[str] | None:
     rows = evidence.rows(BOUNDS, view, bound=UPPER_BOUND)
     if not rows.empty:
         sentences.append(
-            "A p-value says only that the mean is not the bound; its interval says how far it is: "
+            f"That it is above {LOWER_BOUND} had to come out: a path in the interior has "
+            f"{LOWER_BOUND} triangles or more by definition. A p-value says only that the mean is "
+            "not the bound; its interval says how far it is: "
             f"over all groups they reach from {show(rows['mean_low'].min(), 'fixed4')} "
             f"to {show(rows['mean_high'].max(), 'fixed4')}."
         )

@@ -17,18 +17,20 @@ from reports.page.evidence import Evidence
 from reports.page.views import View
 from reports.study_page.explorer import EXPLORER_POINTS, EXPLORER_TRIANGLES, N_POINTS
 from reports.study_page.sections.regressions import best
+from reports.study_page.sections.theory import one_chance
 from reports.study_page.tables import TABLE_4
 from reports.text.numbers import count, large, listed, show
-from reports.text.words import LEVEL, PREMISE
+from reports.text.words import LEVEL
 from study.analysis.group_summaries import GROUPS, OVERVIEW
+from study.analysis.table import Rows
 from study.analysis.terminal_regions import REGIONS
 from study.analysis.theorems import MEAN, SD, THEOREM_1, THEOREM_2
 from study.analysis.variance_analysis import ANOVA, WELCH
 from study.paper.published import REFERENCE_METHOD
 from study.paper.reproduction import JUDGED, SUMMARY, independent_column
 from study.paper.statements import NOT_TESTED, STATEMENTS
-from study.statistics.thresholds import CLOSE_UP_TO, ONE_PERCENT, SIGNIFICANCE, WITHIN_ONE_PERCENT
-from study.statistics.verdicts import NO, UNDECIDED, YES, all_of
+from study.statistics.thresholds import CLOSE_UP_TO, SIGNIFICANCE
+from study.statistics.verdicts import NO, NOT_REJECTED, NOT_SHOWN, UNDECIDED, YES, all_of
 
 
 def section(evidence: Evidence) -> Section:
@@ -88,21 +90,21 @@ def _tiles(evidence: Evidence, view: View) -> list[Tile] | None:
         ),
     ]
     theorem = evidence.one(THEOREM_2, view, n_points=group["n_points"])
-    if theorem is not None:
+    moment = evidence.one(THEOREM_1, view, n_points=group["n_points"], statistic=MEAN)
+    if theorem is not None and moment is not None:
         tiles.append(
             Tile(
                 show(theorem["p_type_c"], "fixed4"),
-                "Chance p that a path ends",
-                f"Theorem 2 supposes at least {LEAST_P_TEXT}",
+                "Chance p that a path ends at its first step",
+                f"of all steps, a share of r\u00a0=\u00a0{show(moment['p_all_steps'], 'fixed4')}",
             )
         )
-    moment = evidence.one(THEOREM_1, view, n_points=group["n_points"], statistic=MEAN)
     if moment is not None:
         tiles.append(
             Tile(
                 show(moment["predicted"], "fixed4"),
                 "Mean LEPP by Theorem 1",
-                f"measured is {_off(moment['relative_difference'])}",
+                f"from p; measured is {_off(moment['relative_difference'])}",
             )
         )
     verdicts = evidence.rows(SUMMARY, method=view.method)
@@ -144,12 +146,14 @@ def _spread(evidence: Evidence, view: View) -> str | None:
     group = _largest_group(evidence, view)
     if overview is None or group is None:
         return None
+    largest = overview["max_lepp"]
     return (
-        f"A refinement that starts at a random triangle of {group['n_points']:,} "
-        f"{view.distribution_word} points, triangulated by the {view.method_word} method, runs "
-        f"through {show(group['mean_lepp'], 'fixed2')} triangles on average. In "
-        f"{count(overview['triangulations'], 'triangulation')} with {large(overview['triangles'])} "
-        f"triangles, no path was longer than {overview['max_lepp']}."
+        f"The first step of a refinement, from a random triangle of {group['n_points']:,} "
+        f"{view.distribution_word} points triangulated by the {view.method_word} method, follows "
+        f"a path of {show(group['mean_lepp'], 'fixed2')} triangles on average; a refinement "
+        "repeats it until the triangle is gone. In "
+        f"{count(overview['triangulations'], 'triangulation')} of all sizes, with "
+        f"{large(overview['triangles'])} triangles, no path was longer than {largest}."
     )
 
 
@@ -184,35 +188,30 @@ def _theory(evidence: Evidence, view: View) -> str | None:
         return None
     last = rows.select(n_points=rows["n_points"].max()).frame.set_index("statistic")
     mean, sd = last.loc[MEAN], last.loc[SD]
-    kept = all_of(bounds["bounds"]) == YES
-    p = f"p is {show(mean['p_type_c'], 'fixed4')}"
-    supposed = {
-        YES: f"and so does what it supposes, {PREMISE}",
-        NO: f"although what it supposes, {PREMISE}, does not{_refuted(bounds['premise'], p)}",
-        UNDECIDED: f"while it stays open whether {PREMISE}, which it supposes",
-    }[all_of(bounds["premise"])]
-    outcome = (
-        "Theorem 2's bounds hold in every triangulation" if kept else "Theorem 2's bounds fail"
-    )
-    if not kept:
-        supposed = p
-    if max(abs(mean["relative_difference"]), abs(sd["relative_difference"])) < WITHIN_ONE_PERCENT:
-        first = f"Theorem 1 gives the mean and the standard deviation within {ONE_PERCENT}."
+    step = f"step ends a path with a chance of at least {LEAST_P_TEXT}"
+    if all_of(bounds["bounds"]) == YES:
+        supposed = {
+            YES: f"and follow from what holds as well, that every {step}",
+            NO: f"although not every {step}{_refuted(bounds)}, from which they would follow",
+            UNDECIDED: f"while it stays open whether every {step}, from which they would follow",
+        }[all_of(bounds["premise"])]
+        outcome = f"Theorem 2's bounds hold in every triangulation, {supposed}."
     else:
-        first = (
-            f"Theorem 1 gives {show(mean['predicted'], 'fixed2')} for the mean, and the measured "
-            f"one is {_off(mean['relative_difference'])}; for the standard deviation it gives "
-            f"{show(sd['predicted'], 'fixed2')}, and the measured one is "
-            f"{_off(sd['relative_difference'])}."
-        )
-    return f"{outcome}, {supposed}. {first}"
+        outcome = "Theorem 2's bounds fail."
+    return (
+        f"{outcome} Theorem 1 takes one chance for all steps. {one_chance(evidence, view)} With "
+        f"the chance at the first step, the mean is {_off(mean['relative_difference'])} the "
+        "theorem's; with that of all steps it fits by construction, and the standard deviation is "
+        f"{_off(sd['difference_all_steps'])}."
+    )
 
 
-def _refuted(premise: pd.Series, p: str) -> str:
+def _refuted(bounds: Rows) -> str:
+    premise = bounds["premise"]
     failed = int((premise == NO).sum())
-    if failed == len(premise):
-        return f": {p}"
-    return f" at {failed} of {count(len(premise), 'number')} of points"
+    where = f"at {failed} of {count(len(premise), 'number')} of points, "
+    least = show(bounds["lowest_rate"].min(), "fixed4")
+    return f" ({where if failed < len(premise) else ''}the least is {least})"
 
 
 def _figure_1(evidence: Evidence) -> Drawing:
@@ -255,6 +254,8 @@ def _statements(evidence: Evidence, view: View) -> list[str] | None:
             (YES, "hold"),
             (NO, "do not"),
             (UNDECIDED, UNDECIDED),
+            (NOT_REJECTED, NOT_REJECTED),
+            (NOT_SHOWN, NOT_SHOWN),
             (NOT_TESTED, NOT_TESTED),
         )
         if key in holds

@@ -9,10 +9,23 @@ from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View
 from reports.study_page.sections.worst_case import worst_case
-from reports.text.numbers import listed, show
+from reports.text.numbers import large, listed, show
 from reports.text.words import LEVEL, PREMISE
-from study.analysis.path_lengths import LAW, TERMINATION
+from study.analysis.parts import INTERIOR, WHOLE
+from study.analysis.path_lengths import (
+    ALL_STEPS,
+    CONSTANT,
+    CONTINUATION,
+    FALLING,
+    FIRST_STEP,
+    LAW,
+    PATH_LAWS,
+    TERMINATION,
+)
+from study.analysis.table import Rows
 from study.analysis.theorems import (
+    MEAN,
+    MOST_MEAN,
     MOST_SD,
     NEIGHBOR_TYPES,
     STATISTICS,
@@ -20,11 +33,17 @@ from study.analysis.theorems import (
     THEOREM_2,
     TYPES,
 )
-from study.statistics.thresholds import A_HUNDREDTH, CONSTANT_RATE, ROUGH_RATE, WITHIN_ONE_PERCENT
-from study.statistics.verdicts import NO, YES
+from study.statistics.thresholds import ROUGH_RATE
+from study.statistics.verdicts import NO, REJECTED, YES
 
 #: The size from which on paths are called long.
 LONG = 8
+
+#: Width of an interval from which on a chance is not drawn.
+DRAWN = 0.5
+
+#: The parts of a mesh in words.
+_WHERE = {INTERIOR: "in the interior", WHOLE: "in the whole mesh"}
 
 
 def section(evidence: Evidence) -> Section:
@@ -37,7 +56,7 @@ def section(evidence: Evidence) -> Section:
         (
             Subsection(
                 "types",
-                "How often does a path end?",
+                "How often does a path end at its first step?",
                 (
                     Prose(per_view(evidence.views, lambda view: _premise(evidence, view))),
                     _types(evidence),
@@ -59,8 +78,12 @@ def section(evidence: Evidence) -> Section:
             ),
             Subsection(
                 "steps",
-                "Step by step",
-                (_termination(evidence), _law(evidence)),
+                "How often does a path go on?",
+                (
+                    _continuation(evidence),
+                    TableBlock(PATH_LAWS, "Laws of the chance to go on"),
+                    _law(evidence),
+                ),
             ),
             worst_case(evidence),
         ),
@@ -71,23 +94,49 @@ def _premise(evidence: Evidence, view: View) -> list[str] | None:
     rows = evidence.rows(THEOREM_2, view)
     if rows.empty:
         return None
-    p = rows.last
-    premise = f"so the premise of Theorem 2, {PREMISE}, {_in_groups(rows['premise'])}"
+    last = rows.last
+    size = f"{last['n_points']:,} {view.distribution_word} points"
+    moments = evidence.one(THEOREM_1, view, n_points=last["n_points"])
+    all_steps = ""
+    if moments is not None:
+        r = show(moments["p_all_steps"], "fixed4")
+        all_steps = f" Of all steps together, a share of r\u00a0=\u00a0{r} ends a path."
+    return [
+        "A path ends at a neighbour of type C: one whose own longest edge is the edge that is "
+        f"crossed. At {size} the share of such neighbours, which is the chance that a path ends at "
+        f"its first step, is p\u00a0=\u00a0{show(last['p_type_c'], 'fixed4')}.{all_steps}",
+        f"Theorem 2 supposes {PREMISE} and, with Theorem 1, the same p at every step. Its bounds "
+        f"need less: if every step ends a path with a chance of at least {LEAST_P_TEXT}, which may "
+        "differ from step to step, then at most (2/3)ʲ of the paths go on for j steps after "
+        f"their second triangle, the mean is at most 2 + 2/3 + (2/3)² + … = {MOST_MEAN:g}, and the "
+        f"standard deviation at most √{MOST_SD**2:g}. {_every_step(rows)} {_bounds_hold(rows)}",
+    ]
+
+
+def _every_step(rows: Rows) -> str:
+    premise = rows["premise"]
+    known = rows.frame.dropna(subset="lowest_rate")
+    if known.empty:
+        return f"No step is known to within {ROUGH_RATE:g}, so that this stays open."
+    least = known.loc[known["lowest_rate"].idxmin()]
+    return (
+        f"As far as the chances are known to within {ROUGH_RATE:g}, this {_in_groups(premise)}: "
+        f"the least is {show(least['lowest_rate'], 'fixed4')}, at size {least['lowest_size']} and "
+        f"{least['n_points']:,} points."
+    )
+
+
+def _bounds_hold(rows: Rows) -> str:
     kept = rows["bounds"] == YES
-    outcome = (
-        "Its bounds hold in every single triangulation: means from "
+    if not kept.all():
+        return f"The bounds are broken in {int((~kept).sum())} of {len(rows)} groups."
+    return (
+        "The bounds hold in every single triangulation: means from "
         f"{show(rows['lowest_mean'].min(), 'fixed4')} to "
         f"{show(rows['highest_mean'].max(), 'fixed4')}, standard deviations up to "
         f"{show(rows['highest_sd'].max(), 'fixed4')}, where √{MOST_SD**2:g} is "
-        f"{show(MOST_SD, 'fixed4')}."
-        if kept.all()
-        else f"Its bounds are broken in {int((~kept).sum())} of {len(rows)} groups."
+        f"{show(MOST_SD, 'fixed4')}. The lower one, 2, is the size of the shortest path inside."
     )
-    return [
-        "A path ends at a neighbour of type C: one whose own longest edge is the edge that is "
-        f"crossed. At {p['n_points']:,} {view.distribution_word} points the share of such "
-        f"neighbours is p\u00a0=\u00a0{show(p['p_type_c'], 'fixed4')}, {premise}. {outcome}"
-    ]
 
 
 def _in_groups(premise: pd.Series) -> str:
@@ -154,26 +203,50 @@ def _theorem_1(evidence: Evidence, view: View) -> list[str] | None:
     if rows.empty:
         return None
     last = rows.select(n_points=rows["n_points"].max())
-    off = [
-        f"the {row.statistic} {show(abs(row.relative_difference), 'percent1')} "
-        f"{'above' if row.relative_difference > 0 else 'below'}"
-        for row in last.frame.itertuples()
-    ]
-    differences = last["relative_difference"]
-    verdict = (
-        "It describes the measurement closely"
-        if differences.abs().max() < WITHIN_ONE_PERCENT
-        else "It puts all four too high"
-        if (differences < 0).all()
-        else "It puts all four too low"
-        if (differences > 0).all()
-        else "It misses, now on one side and now on the other"
-    )
+    others = last.frame[last["statistic"] != MEAN]
+    first = last.first
     return [
-        f"Theorem 1 makes all four moments out of p alone. {verdict}: at "
-        f"{last['n_points'].iloc[0]:,} points the measured values lie, against the theorem's, "
-        f"{listed(off)}."
+        "Theorem 1 takes the chance to end to be the same at every step, and makes all four "
+        f"moments out of it. {one_chance(evidence, view)} At {first['n_points']:,} points, with "
+        f"p\u00a0=\u00a0{show(first['p_type_c'], 'fixed4')} of the first step, the measured values "
+        f"lie, against the theorem's, {_off(last.frame, 'relative_difference')}; with "
+        f"r\u00a0=\u00a0{show(first['p_all_steps'], 'fixed4')} of all steps the mean fits by "
+        f"construction, and the others lie, {_off(others, 'difference_all_steps')}."
     ]
+
+
+def one_chance(evidence: Evidence, view: View) -> str:
+    """Say whether one chance fits all steps, which is Theorem 1's premise."""
+    part = _part(evidence, view)
+    test = evidence.one(PATH_LAWS, view, part=part, law=CONSTANT)
+    if test is None:
+        return "The run is too small to test whether one chance fits all steps."
+    numbers = f"({_chi_squared(test)}, {_WHERE[part]})"
+    if test["verdict"] == REJECTED:
+        return f"No single chance fits the steps {numbers}, whichever it is."
+    return f"That one chance fits all steps is not rejected {numbers}."
+
+
+def _chi_squared(law: pd.Series) -> str:
+    return (
+        f"χ²\u00a0=\u00a0{show(law['chi_squared'], 'g3')} on {law['df']} degrees of freedom, "
+        f"p\u00a0=\u00a0{show(law['log10_p'], 'log10p')}"
+    )
+
+
+def _off(rows: pd.DataFrame, column: str) -> str:
+    return listed(
+        [
+            f"the {statistic} {show(abs(off), 'percent1')} {'above' if off > 0 else 'below'}"
+            for statistic, off in zip(rows["statistic"], rows[column], strict=True)
+        ]
+    )
+
+
+def _part(evidence: Evidence, view: View) -> str:
+    """Return the part of the mesh whose law is told: the interior, if there is one."""
+    inside = evidence.rows(PATH_LAWS, view, part=INTERIOR)
+    return WHOLE if inside.empty else INTERIOR
 
 
 def _moments(evidence: Evidence) -> FigureBlock:
@@ -201,7 +274,8 @@ def _moments(evidence: Evidence) -> FigureBlock:
         title="The four moments, measured and by Theorem 1",
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
-        reading="The scales differ; what matters is the distance between the two lines of a panel.",
+        reading="The scales differ; what matters is the distance between the lines of a panel. "
+        "With r of all steps the mean fits by construction.",
         data=(TableBlock(THEOREM_1, "Data: moments by number of points"),),
     )
 
@@ -221,7 +295,11 @@ def _moment(evidence: Evidence, view: View, statistic: str) -> style.Panel:
             hovertemplate="%{x:,} points: %{y:.4f}<extra>" + name + "</extra>",
         )
         for series, (column, name) in enumerate(
-            (("measured", "measured"), ("predicted", "Theorem 1"))
+            (
+                ("measured", "measured"),
+                ("predicted", "Theorem 1, p of the first step"),
+                ("predicted_all_steps", "Theorem 1, r of all steps"),
+            )
         )
     ]
     return style.Panel(
@@ -229,78 +307,160 @@ def _moment(evidence: Evidence, view: View, statistic: str) -> style.Panel:
     )
 
 
-def _termination(evidence: Evidence) -> FigureBlock:
+def _continuation(evidence: Evidence) -> FigureBlock:
     def draw(view: View) -> Spec | None:
-        rows = _steps(evidence, view)
-        rows = rows[rows["low"].notna()]
+        part = _part(evidence, view)
+        rows = _measured(evidence, view, part)
         if rows.empty:
             return None
-        p = float(rows["p_type_c"].iloc[0])
+        traces = [_measured_rates(rows, f"measured, {_WHERE[part]}", style.marker(0))]
+        if part == INTERIOR:
+            whole = _measured(evidence, view, WHOLE)
+            behind = style.marker(2, 11, symbol="square-open")
+            traces.insert(0, _measured_rates(whole, f"measured, {_WHERE[WHOLE]}", behind))
+        if rows["fitted"].notna().any():
+            traces.append(
+                style.scatter(
+                    x=rows["lepp_size"],
+                    y=rows["fitted"],
+                    mode="lines",
+                    name=f"law {FALLING}",
+                    line=style.line(1),
+                    hovertemplate="%{x} triangles: %{y:.4f}<extra>law</extra>",
+                )
+            )
+        first = float(rows["constant"].iloc[0])
         return style.plot(
-            style.scatter(
-                x=rows["lepp_size"],
-                y=rows["rate"],
-                mode="lines+markers",
-                name="measured",
-                line=style.line(0),
-                marker=style.marker(0),
-                error_y={
-                    "type": "data",
-                    "symmetric": False,
-                    "array": rows["high"] - rows["rate"],
-                    "arrayminus": rows["rate"] - rows["low"],
-                    "thickness": 1.5,
-                    "width": 3,
-                    "color": style.SERIES[0],
-                },
-                hovertemplate="size %{x}: %{y:.4f}<extra></extra>",
-            ),
-            xaxis=style.axis("LEPP size reached", dtick=1),
-            yaxis=style.axis("Share of paths that end there", range=[0, 1.02]),
-            levels=[style.Level(p, f"Theorem 1: p\u00a0=\u00a0{show(p, 'fixed4')}")],
+            *traces,
+            xaxis=style.axis("Triangles k that the path has", dtick=2),
+            yaxis=style.axis("Share of the paths that go on", range=[0, 1.02]),
+            levels=[style.Level(first, f"Theorem 1: {show(first, 'fixed4')}")],
         )
 
     def say(view: View) -> str | None:
-        rows = _steps(evidence, view)
+        part = _part(evidence, view)
+        rows = evidence.rows(CONTINUATION, view, part=part).frame
         if rows.empty:
             return None
-        steps = [
-            f"{show(row.rate, 'percent1')} at size {row.lepp_size}"
-            for row in rows.head(4).itertuples()
-        ]
-        sure = rows[(rows["high"] - rows["low"] < ROUGH_RATE).cummin()]
-        known = sure if len(sure) > 1 else rows
-        constant = float(known["rate"].max() - known["rate"].min()) < CONSTANT_RATE
-        verdict = f"is constant to {A_HUNDREDTH}, as" if constant else f"{_trend(known)}, while"
-        return (
-            f"The share of paths that end {verdict} Theorem 1 takes it to be constant: "
-            f"{listed(steps)}."
+        return " ".join(
+            sentence
+            for sentence in (
+                f"{_WHERE[part].capitalize()}, the chance to go on "
+                f"{_trend(rows, _one_fits(evidence, view, part))}.",
+                _fitted(evidence, view, part),
+                _longest(evidence, view, part),
+            )
+            if sentence
         )
 
     return FigureBlock(
-        id="figure-termination",
-        title="Termination rate at each size of the path",
+        id="figure-continuation",
+        title="Chance to go on after k triangles",
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
-        reading=f"Of the paths that reach a size, the share that end there, with {LEVEL} "
-        "intervals.",
-        data=(TableBlock(TERMINATION, "Data: termination rates"),),
+        reading="Of the paths that have k triangles or more, the share that have more, with "
+        f"{LEVEL} intervals. Theorem 1 takes it to be constant. Long paths come in bundles that "
+        "share most of their triangles: the longest one seen scatters more widely around what a "
+        "law expects than independent paths would.",
+        data=(
+            TableBlock(CONTINUATION, "Data: chances to go on"),
+            TableBlock(TERMINATION, "Data: the same from the other side, at all sizes together"),
+        ),
     )
 
 
-def _steps(evidence: Evidence, view: View) -> pd.DataFrame:
-    """Termination rates from size 2 on, that is without the paths that never take a step."""
-    rows = evidence.rows(TERMINATION, view)
-    return rows.frame[rows["lepp_size"] >= 2]
+def _measured(evidence: Evidence, view: View, part: str) -> pd.DataFrame:
+    """Return the chances to go on that are known well enough to be drawn."""
+    rows = evidence.rows(CONTINUATION, view, part=part).frame
+    return rows[rows["high"] - rows["low"] < DRAWN]
 
 
-def _trend(rows: pd.DataFrame) -> str:
-    rates, upto = rows["rate"], f"with every step up to size {rows['lepp_size'].iloc[-1]}"
-    if rates.is_monotonic_increasing:
-        return f"rises {upto}"
-    if rates.is_monotonic_decreasing:
-        return f"falls {upto}"
-    return f"moves between {show(rates.min(), 'percent1')} and {show(rates.max(), 'percent1')}"
+def _measured_rates(rows: pd.DataFrame, name: str, marker: Spec) -> Spec:
+    return style.scatter(
+        x=rows["lepp_size"],
+        y=rows["rate"],
+        mode="markers",
+        name=name,
+        marker=marker,
+        error_y={
+            "type": "data",
+            "symmetric": False,
+            "array": rows["high"] - rows["rate"],
+            "arrayminus": rows["rate"] - rows["low"],
+            "thickness": 1.5,
+            "width": 3,
+            "color": marker["color"],
+        },
+        hovertemplate="%{x} triangles: %{y:.4f}<extra>" + name + "</extra>",
+    )
+
+
+def _one_fits(evidence: Evidence, view: View, part: str) -> bool:
+    """Whether one chance for all steps has been tested and is not rejected."""
+    test = evidence.one(PATH_LAWS, view, part=part, law=CONSTANT)
+    return test is not None and test["verdict"] != REJECTED
+
+
+def _trend(rows: pd.DataFrame, level: bool) -> str:
+    """Say how the chances change, of those that are known well, or of all if none is."""
+    narrow = (rows["high"] - rows["low"] < ROUGH_RATE).cummin()
+    sure = rows[narrow] if narrow.sum() > 1 else rows
+    rates, last = sure["rate"], sure.iloc[-1]
+    upto = (
+        f"up to size {last['lepp_size']}, as far as it is known to within {ROUGH_RATE:g}"
+        if narrow.sum() > 1
+        else f"up to size {last['lepp_size']}, where it is not known to within {ROUGH_RATE:g}"
+    )
+    ends = f"from {show(rates.iloc[0], 'percent1')} to {show(rates.iloc[-1], 'percent1')}"
+    if rates.is_monotonic_decreasing and not level:
+        return f"falls with every step, {ends}, {upto}"
+    if rates.is_monotonic_increasing and not level:
+        return f"rises with every step, {ends}, {upto}"
+    before = rates.shift()
+    rises, falls = (sure["low"] > before).any(), (sure["high"] < before).any()
+    if rises != falls and not level:
+        return f"{'rises' if rises else 'falls'} {ends}, {upto}"
+    least, most = show(rates.min(), "percent1"), show(rates.max(), "percent1")
+    return f"moves between {least} and {most}, {upto}"
+
+
+def _fitted(evidence: Evidence, view: View, part: str) -> str:
+    if _one_fits(evidence, view, part):
+        constant = evidence.rows(PATH_LAWS, view, part=part, law=CONSTANT).first
+        return f"One chance for all steps is not rejected ({_chi_squared(constant)})."
+    falling = evidence.one(PATH_LAWS, view, part=part, law=FALLING)
+    if falling is None:
+        return ""
+    coefficients = [
+        f"{sign}\u00a0=\u00a0{show(falling[name], 'fixed3')}\u00a0±\u00a0"
+        f"{show(falling[f'{name}_error'], 'fixed3')}"
+        for sign, name in (("λ", "scale"), ("b", "shift"), ("a", "exponent"))
+    ]
+    return (
+        f"The law {FALLING} with {listed(coefficients)} is {falling['verdict']} "
+        f"({_chi_squared(falling)})."
+    )
+
+
+def _longest(evidence: Evidence, view: View, part: str) -> str:
+    laws = evidence.rows(PATH_LAWS, view, part=part).frame.set_index("law")
+    if laws.empty:
+        return ""
+    expected = [
+        f"{laws.loc[law, 'longest_expected']} by {words}"
+        for law, words in (
+            (FALLING, "this law"),
+            (FIRST_STEP, "Theorem 1 with the chance at the first step"),
+            (ALL_STEPS, "Theorem 1 with that of all steps"),
+        )
+        if law in laws.index and not pd.isna(laws.loc[law, "longest_expected"])
+    ]
+    first = laws.iloc[0]
+    told = (
+        f"The longest of {large(first['paths'])} such paths at {first['n_points']:,} points has "
+        f"{first['longest_seen']} triangles"
+    )
+    return f"{told}; expected are {listed(expected)}." if expected else f"{told}."
 
 
 def _law(evidence: Evidence) -> FigureBlock:

@@ -5,6 +5,8 @@ import pytest
 from made_runs import METHODS, page, run
 from scipy import stats
 
+from study.analysis.numbers import p_value_from_log10, significant
+
 
 def rows(name, method="incremental"):
     results = run(name)["results"]
@@ -23,75 +25,141 @@ def pooled(name, method="incremental"):
     return np.bincount(frame["lepp_size"], frame["count"])
 
 
-def test_premise_holds_or_fails_by_the_interval_of_p():
+def least(name):
+    """The least share of paths that end, of all groups, up to the first size where none does."""
+    frame = run(name)["histograms"].query("method == 'incremental' and lepp_size > 1")
+    found = []
+    for n, group in frame.groupby("n_points"):
+        counts = np.bincount(group["lepp_size"], group["count"])
+        reached = counts[::-1].cumsum()[::-1]
+        for k in range(2, int(np.append(counts[2:] == 0, True).argmax()) + 2):
+            found.append((counts[k] / reached[k], k, n))
+    return min(found)
+
+
+def test_premise_holds_or_fails_by_every_step():
     p = shares("high p").mean()
     means = rows("high p")["mean_lepp"]
+    r = 1 / (rows("high p").query("n_points == 8000")["mean_lepp"].mean() - 1)
     said = page("high p").prose("types")
+    rate, size, n = least("high p")
+    assert rate > 1 / 3
     assert said == (
         "A path ends at a neighbour of type C: one whose own longest edge is the edge that is "
-        f"crossed. At 8,000 uniform points the share of such neighbours is p = {p:.4f}, so the "
-        "premise of Theorem 2, p ≥ 1/3, holds in every group. Its bounds hold in every single "
-        f"triangulation: means from {means.min():.4f} to {means.max():.4f}, standard deviations up "
-        f"to {rows('high p')['sd_lepp'].max():.4f}, where √6 is {np.sqrt(6):.4f}."
+        "crossed. At 8,000 uniform points the share of such neighbours, which is the chance that a "
+        f"path ends at its first step, is p = {p:.4f}. Of all steps together, a share of "
+        f"r = {r:.4f} ends a path. Theorem 2 supposes p ≥ 1/3 and, with Theorem 1, the same p at "
+        "every step. Its bounds need less: if every step ends a path with a chance of at least "
+        "1/3, which may differ from step to step, then at most (2/3)ʲ of the paths go on for j "
+        "steps after their second triangle, the mean is at most 2 + 2/3 + (2/3)² + … = 4, and the "
+        "standard deviation at most √6. As far as the chances are known to within 0.05, this holds "
+        f"in every group: the least is {rate:.4f}, at size {size} and {n:,} points. The bounds "
+        f"hold in every single triangulation: means from {means.min():.4f} to {means.max():.4f}, "
+        f"standard deviations up to {rows('high p')['sd_lepp'].max():.4f}, where √6 is "
+        f"{np.sqrt(6):.4f}. The lower one, 2, is the size of the shortest path inside."
     )
-    assert "p ≥ 1/3, fails in every group." in page("low p").prose("types")
+    rate, size, n = least("low p")
+    assert (
+        f"known to within 0.05, this fails in every group: the least is {rate:.4f}, at size {size} "
+        f"and {n:,} points."
+    ) in page("low p").prose("types")
     assert f"p = {shares('low p').mean():.4f}" in page("low p").prose("types")
 
 
 def test_premise_that_fails_in_some_groups():
-    assert "p ≥ 1/3, fails in 2 of 4 groups." in page("p falls").prose("types")
+    assert "this fails in 2 of 4 groups: the least" in page("p falls").prose("types")
 
 
 def test_broken_bounds_are_counted():
-    assert "Its bounds are broken in 1 of 4 groups." in page("out of bounds").prose("types")
-    said = page("out of bounds").prose("key-figures")
-    assert f"Theorem 2's bounds fail, p is {shares('out of bounds').mean():.4f}." in said
+    assert "The bounds are broken in 1 of 4 groups." in page("out of bounds").prose("types")
+    assert "Theorem 2's bounds fail. " in page("out of bounds").prose("key-figures")
 
 
 def test_opening_on_the_theorems():
-    assert (
-        "Theorem 2's bounds hold in every triangulation, and so does what it supposes, p ≥ 1/3."
-        in page("high p").prose("key-figures")
+    need = "every step ends a path with a chance of at least 1/3"
+    bounds = "Theorem 2's bounds hold in every triangulation"
+    assert f"{bounds}, and follow from what holds as well, that {need}." in page("high p").prose(
+        "key-figures"
     )
     assert (
-        "Theorem 2's bounds hold in every triangulation, although what it supposes, p ≥ 1/3, does "
-        f"not: p is {shares('low p').mean():.4f}."
+        f"{bounds}, although not {need} (the least is {least('low p')[0]:.4f}), from which they "
+        "would follow."
     ) in page("low p").prose("key-figures")
-    assert "Theorem 1 gives the mean and the standard deviation within one per cent." in page(
-        "Theorem 1"
-    ).prose("key-figures")
-    p = shares("above Theorem 1").mean()
-    last = rows("above Theorem 1").query("n_points == 8000")
-    mean, sd = last["mean_lepp"].mean(), last["sd_lepp"].mean()
-    assert (
-        f"Theorem 1 gives {1 + 1 / p:.2f} for the mean, and the measured one is "
-        f"{100 * (mean / (1 + 1 / p) - 1):.1f} % above; for the standard deviation it gives "
-        f"{np.sqrt(1 - p) / p:.2f}, and the measured one is "
-        f"{100 * (sd / (np.sqrt(1 - p) / p) - 1):.1f} % above."
-    ) in page("above Theorem 1").prose("key-figures")
+    assert f"not {need} (at 2 of 4 numbers of points, the least" in page("p falls").prose(
+        "key-figures"
+    )
+    for name in ("above Theorem 1", "Theorem 1"):
+        p = shares(name).mean()
+        last = rows(name).query("n_points == 8000")
+        mean, sd = last["mean_lepp"].mean(), last["sd_lepp"].mean()
+        r = 1 / (mean - 1)
+        assert (
+            f"With the chance at the first step, the mean is {off(mean / (1 + 1 / p) - 1)} the "
+            "theorem's; with that of all steps it fits by construction, and the standard deviation "
+            f"is {off(sd / (np.sqrt(1 - r) / r) - 1)}."
+        ) in page(name).prose("key-figures")
+    assert off(0.02) == "2.0 % above"
+
+
+def off(relative):
+    return f"{abs(100 * relative):.1f} % {'above' if relative > 0 else 'below'}"
 
 
 def test_moments_are_held_against_theorem_1():
-    p = shares("drawn").mean()
     last = rows("drawn").query("n_points == 8000")
-    law = stats.geom(p)
-    _, _, skewness, kurtosis = law.stats("mvsk")
-    theory = {
-        "mean": (law.mean() + 1, "mean_lepp"),
-        "standard deviation": (law.std(), "sd_lepp"),
-        "skewness": (skewness, "skewness_lepp"),
-        "excess kurtosis": (kurtosis, "kurtosis_lepp"),
-    }
-    words = []
-    for name, (value, column) in theory.items():
-        off = last[column].mean() / value - 1
-        words.append(f"the {name} {abs(100 * off):.1f} % {'above' if off > 0 else 'below'}")
+    columns = ("mean_lepp", "sd_lepp", "skewness_lepp", "kurtosis_lepp")
+    names = ("the mean", "the standard deviation", "the skewness", "the excess kurtosis")
+
+    def words(p):
+        law = stats.geom(p)
+        _, _, skewness, kurtosis = law.stats("mvsk")
+        theory = (law.mean() + 1, law.std(), skewness, kurtosis)
+        measured = [last[column].mean() for column in columns]
+        return [
+            f"{name} {off(m / t - 1)}" for name, m, t in zip(names, measured, theory, strict=True)
+        ]
+
+    p, r = shares("drawn").mean(), 1 / (last["mean_lepp"].mean() - 1)
+    first, all_steps = words(p), words(r)[1:]
     said = page("drawn").prose("theorem-1")
-    assert said.endswith(f"the theorem's, {', '.join(words[:3])} and {words[3]}.")
-    assert "It puts all four too low" in page("above Theorem 1").prose("theorem-1")
-    assert "It describes the measurement closely" in page("Theorem 1").prose("theorem-1")
-    assert "It puts all four too high" in page("drawn").prose("theorem-1")
-    assert "now on one side and now on the other" in page("mixed Theorem 1").prose("theorem-1")
+    assert said.endswith(
+        f"At 8,000 points, with p = {p:.4f} of the first step, the measured values lie, against "
+        f"the theorem's, {', '.join(first[:3])} and {first[3]}; with r = {r:.4f} of all steps the "
+        f"mean fits by construction, and the others lie, {', '.join(all_steps[:2])} and "
+        f"{all_steps[2]}."
+    )
+
+
+def path_laws(name, part="interior"):
+    frame = page(name).evidence.tables["path_laws"].rows(method="incremental", part=part).frame
+    return frame.set_index("law")
+
+
+def numbers(row):
+    p = 10 ** row["log10_p"]
+    shown = p_value_from_log10(row["log10_p"]).replace("\u00a0", " ")
+    assert (p > 0.001) == ("×" not in shown)
+    chi_squared = significant(row["chi_squared"], 3).replace("\u00a0", " ")
+    return f"χ² = {chi_squared} on {row['df']} degrees of freedom, p = {shown}"
+
+
+def test_one_chance_for_all_steps_is_rejected_or_not():
+    falling, constant = (path_laws(f"{n} chance").loc["constant"] for n in ("falling", "constant"))
+    assert falling["log10_p"] < -30
+    assert 10 ** constant["log10_p"] > 0.05
+    assert (
+        f"No single chance fits the steps ({numbers(falling)}, in the interior), whichever it is."
+    ) in page("falling chance").prose("theorem-1")
+    assert (
+        f"That one chance fits all steps is not rejected ({numbers(constant)}, in the interior)."
+    ) in page("constant chance").prose("theorem-1")
+    for name in ("falling chance", "constant chance"):
+        assert "takes one chance for all steps. " in page(name).prose("key-figures")
+    assert "No single chance" in page("falling chance").prose("key-figures")
+    assert "is not rejected" in page("constant chance").prose("key-figures")
+    outside = page("falling chance, no interior").prose("theorem-1")
+    assert "No single chance" in outside
+    assert ", in the whole mesh), whichever" in outside
 
 
 def test_intervals_that_hold_theorem_1_are_counted():
@@ -129,32 +197,104 @@ def test_types_of_neighbours():
         )
 
 
-def rates(name, method="incremental"):
-    counts = pooled(name, method)
-    reached = counts[::-1].cumsum()[::-1]
-    return np.divide(counts, reached, where=reached > 0, out=np.zeros(len(counts)))
+def chances(name, part="layers"):
+    """Share of the paths of the largest size that go on after k triangles, by k."""
+    frame = run(name)[part].query("method == 'incremental' and n_points == 8000")
+    counts = np.bincount(frame["lepp_size"], frame["count"])
+    reached = np.append(counts[::-1].cumsum()[::-1], 0)
+    return reached[1:] / np.maximum(reached[:-1], 1)
 
 
-@pytest.mark.parametrize("name", ["low p", "high p"])
-def test_termination_rates(name):
-    rate = rates(name)
-    counts = pooled(name)
-    listed = [f"{100 * rate[k]:.1f} % at size {k}" for k in range(2, 6)]
-    said = page(name).finding("figure-termination")
-    assert said.endswith(f": {', '.join(listed[:3])} and {listed[3]}.")
-    assert counts[2:6].all()
+SURE = "as far as it is known to within 0.05."
 
 
-def test_rates_rise_fall_or_are_constant():
-    assert (np.diff(rates("high p")[2:7]) > 0).all()
-    assert "rises with every step" in page("high p").finding("figure-termination")
-    assert "is constant to a hundredth" in page("constant rates").finding("figure-termination")
-    assert (np.diff(rates("falling rates")[2:7]) < 0).all()
-    assert "falls with every step" in page("falling rates").finding("figure-termination")
-    rate = rates("uneven rates")[2:6]
-    assert f"moves between {100 * rate.min():.1f} % and {100 * rate.max():.1f} %" in page(
-        "uneven rates"
-    ).finding("figure-termination")
+@pytest.mark.parametrize(
+    ("name", "how"),
+    [
+        ("falling chance", "falls with every step, "),
+        ("rising chance", "rises with every step, "),
+        ("nearly falling chance", "falls "),
+    ],
+)
+def test_chance_to_go_on_changes(name, how):
+    said = page(name).finding("figure-continuation")
+    start, _, rest = said.partition(", up to size ")
+    upto = int(rest.split(",")[0])
+    chance = chances(name)
+    assert start == (
+        f"In the interior, the chance to go on {how}from {100 * chance[2]:.1f} % to "
+        f"{100 * chance[upto]:.1f} %"
+    )
+    assert SURE in said
+    steps = np.diff(chance[2 : upto + 1])
+    assert ("every step" in how) == ((steps < 0).all() or (steps > 0).all())
+
+
+@pytest.mark.parametrize("name", ["uneven chance", "constant chance"])
+def test_chance_to_go_on_that_neither_falls_nor_rises(name):
+    said = page(name).finding("figure-continuation")
+    upto = int(said.partition(", up to size ")[2].split(",")[0])
+    chance = chances(name)[2 : upto + 1]
+    assert said.startswith(
+        f"In the interior, the chance to go on moves between {100 * chance.min():.1f} % and "
+        f"{100 * chance.max():.1f} %, up to size {upto}, {SURE}"
+    )
+
+
+def test_no_interior_is_told_of_the_whole_mesh():
+    said = page("falling chance, no interior").finding("figure-continuation")
+    assert said.startswith("In the whole mesh, the chance to go on falls with every step, from ")
+    assert f"from {100 * chances('falling chance, no interior', 'histograms')[2]:.1f} %" in said
+
+
+def test_the_law_of_the_chance_to_go_on():
+    law = path_laws("falling chance").loc["λ / (k + b)ᵃ"]
+    said = page("falling chance").finding("figure-continuation")
+    assert (
+        f"The law λ / (k + b)ᵃ with λ = {law['scale']:.3f} ± {law['scale_error']:.3f}, "
+        f"b = {law['shift']:.3f} ± {law['shift_error']:.3f} and a = {law['exponent']:.3f} ± "
+        f"{law['exponent_error']:.3f} is not rejected ({numbers(law)})."
+    ) in said
+    assert abs(law["exponent"] - 0.5) < 3 * law["exponent_error"]
+    other = path_laws("crooked chance").loc["λ / (k + b)ᵃ"]
+    said = page("crooked chance").finding("figure-continuation")
+    assert f"is rejected ({numbers(other)})." in said
+    assert "The law" not in page("uneven chance").finding("figure-continuation")
+    constant = path_laws("constant chance").loc["constant"]
+    said = page("constant chance").finding("figure-continuation")
+    assert f"One chance for all steps is not rejected ({numbers(constant)})." in said
+    assert "The law" not in said
+
+
+def longest_of(chance, paths):
+    """First size beyond which fewer than one path is expected."""
+    longer, k = float(paths), 2
+    while longer * chance(k) >= 1:
+        longer, k = longer * chance(k), k + 1
+    return k
+
+
+def test_longest_paths_seen_and_expected():
+    frame = run("falling chance")["layers"].query("method == 'incremental' and n_points == 8000")
+    paths, longest = frame["count"].sum(), frame["lepp_size"].max()
+    chance = chances("falling chance")
+    law = path_laws("falling chance").loc["λ / (k + b)ᵃ"]
+    r = 1 - 1 / ((frame["lepp_size"] * frame["count"]).sum() / paths - 1)
+    expected = [
+        longest_of(lambda k: law["scale"] / (k + law["shift"]) ** law["exponent"], paths),
+        longest_of(lambda k: chance[2], paths),
+        longest_of(lambda k: r, paths),
+    ]
+    assert (
+        page("falling chance")
+        .finding("figure-continuation")
+        .endswith(
+            f"The longest of {paths / 10**6:.3g} million such paths at 8,000 points has {longest} "
+            f"triangles; expected are {expected[0]} by this law, {expected[1]} by Theorem 1 with "
+            f"the chance at the first step and {expected[2]} by Theorem 1 with that of all steps."
+        )
+    )
+    assert "by this law" not in page("constant chance").finding("figure-continuation")
 
 
 def test_the_law_of_sizes():
@@ -197,8 +337,11 @@ def test_key_figures_of_the_theory(name):
     off = last / (1 + 1 / p) - 1
     value, context = tiles["Mean LEPP by Theorem 1"]
     assert value == f"{1 + 1 / p:.4f}"
-    assert context == f"measured is {abs(100 * off):.1f} % {'above' if off > 0 else 'below'}"
-    assert f"{p:.4f}" in [value for value, _ in tiles.values()]
+    side = "above" if off > 0 else "below"
+    assert context == f"from p; measured is {abs(100 * off):.1f} % {side}"
+    value, context = tiles["Chance p that a path ends at its first step"]
+    assert value == f"{p:.4f}"
+    assert context == f"of all steps, a share of r = {1 / (last - 1):.4f}"
 
 
 @pytest.mark.parametrize("method", METHODS)

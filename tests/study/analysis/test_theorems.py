@@ -1,6 +1,7 @@
 """Theorems 1 and 2 against meshes whose law is known."""
 
 import numpy as np
+import pandas as pd
 import pytest
 from frames import design, frames
 from scipy import stats
@@ -48,12 +49,113 @@ def test_measured_moments_of_a_geometric_mesh_are_predicted(study):
     assert means["relative_difference"].abs().max() < 0.02
 
 
-@pytest.mark.parametrize(("method", "premise"), [("incremental", "yes"), ("delaunay", "no")])
-def test_premise_is_judged_by_the_interval_of_p(study, method, premise):
-    frame = study[2]["theorem_2"].frame.query("method == @method")
-    assert set(frame["premise"]) == {premise}
-    inside = frame.apply(lambda row: row["p_low"] <= row["p_type_c"] <= row["p_high"], axis=1)
-    assert inside.all()
+def test_moments_with_p_of_all_steps(study):
+    frame = study[2]["theorem_1"].frame
+    means = frame[frame["statistic"] == "mean"]
+    assert means["difference_all_steps"].to_numpy() == pytest.approx(0, abs=1e-12)
+    for row in frame.itertuples():
+        law = stats.geom(row.p_all_steps, loc=1)
+        mean, variance, skewness, kurtosis = (float(v) for v in law.stats("mvsk"))
+        expected = {
+            "mean": mean,
+            "standard deviation": variance**0.5,
+            "skewness": skewness,
+            "excess kurtosis": kurtosis,
+        }[row.statistic]
+        assert row.predicted_all_steps == pytest.approx(expected)
+        assert row.difference_all_steps == pytest.approx(row.measured / expected - 1)
+
+
+def law_of(ends):
+    """Mean and variance of sizes from 2 on that end with these chances, then with the last."""
+    tail = np.full(400, ends[-1])
+    ends = np.concatenate([ends, tail])
+    share = np.concatenate([[1], np.cumprod(1 - ends)])[:-1] * ends
+    sizes = np.arange(2, 2 + len(share))
+    mean = (share * sizes).sum()
+    return mean, (share * sizes**2).sum() - mean**2
+
+
+def test_bounds_follow_from_every_step_of_a_third_and_more():
+    rng = np.random.default_rng(8)
+    least = 1 / 3
+    for _ in range(500):
+        more = rng.beta(0.3, 0.7, 30) * rng.integers(0, 2, 30)
+        mean, variance = law_of(np.append(least + (1 - least) * more, least))
+        assert mean <= 4 + 1e-9
+        assert variance <= 6 + 1e-9
+    assert law_of(np.array([least])) == pytest.approx((4, 6))
+    below = law_of(np.array([0.3, least]))
+    assert below[0] > 4
+
+
+def test_bounds_do_not_need_a_first_step_of_a_third():
+    mean, variance = law_of(np.array([0.30, 0.4]))
+    assert mean < 4
+    assert variance < 6
+
+
+def counted(rates, *, paths=200_000, replicates=6, seed=3):
+    """Results and histograms of one size, of paths that end with these rates and then the last."""
+    asked = design(distributions=("uniform",), sizes=(1000,), repetitions=replicates)
+    results, _, *others = frames(asked)
+    ends = np.append(rates, np.full(60, rates[-1]))
+    share = np.concatenate([[1], np.cumprod(1 - ends)])
+    share[:-1] *= ends
+    rng = np.random.default_rng(seed)
+    rows = [
+        {"method": "incremental", "distribution": "uniform", "n_points": 1000,
+         "replicate": replicate, "lepp_size": 2 + k, "count": int(count)}
+        for replicate in range(replicates)
+        for k, count in enumerate(rng.multinomial(paths, share))
+        if count
+    ]  # fmt: skip
+    return analyse(results, pd.DataFrame(rows), *others, asked)
+
+
+@pytest.mark.parametrize(
+    ("rates", "premise", "lowest"),
+    [
+        ([0.4, 0.45, 0.5], "yes", 2),
+        ([0.5, 0.45, 0.36, 0.5], "yes", 4),
+        ([0.3, 0.45, 0.5], "no", 2),
+        ([0.4, 0.45, 0.3, 0.5], "no", 4),
+        ([0.4, 1 / 3, 0.5], "undecided", 3),
+    ],
+)
+def test_premise_is_judged_by_every_step(rates, premise, lowest):
+    (row,) = counted(rates)["theorem_2"].frame.itertuples()
+    assert row.premise == premise
+    assert row.lowest_size == lowest
+    assert row.lowest_low <= rates[lowest - 2] <= row.lowest_high
+    assert row.lowest_rate == pytest.approx(rates[lowest - 2], abs=0.005)
+    assert row.upto_size >= 5
+
+
+def test_premise_stays_open_where_no_rate_is_known_well():
+    rough = counted([0.4, 0.5], paths=100)["theorem_2"].frame
+    assert rough["premise"].tolist() == ["undecided"]
+    assert rough["upto_size"].isna().all()
+    single = counted([0.4, 0.5], replicates=1)["theorem_2"].frame
+    assert single["premise"].tolist() == ["undecided"]
+
+
+def test_least_chance_to_end_is_scipys(study):
+    _, (_, histograms, *_), tables = study
+    frame = tables["theorem_2"].frame
+    row = frame.query("method == 'delaunay' and distribution == 'uniform' and n_points == 8000")
+    counts = histograms.query(
+        "method == 'delaunay' and distribution == 'uniform' and n_points == 8000"
+    ).pivot_table(index="replicate", columns="lepp_size", values="count", fill_value=0)
+    k = row["lowest_size"].iloc[0]
+    reached = counts[[c for c in counts if c >= k]].sum(axis=1)
+    rate = counts[k].sum() / reached.sum()
+    assert row["lowest_rate"].iloc[0] == pytest.approx(rate)
+    assert rate == min(
+        counts[j].sum() / counts[[c for c in counts if c >= j]].sum().sum()
+        for j in range(2, row["upto_size"].iloc[0] + 1)
+    )
+    assert row["lowest_low"].iloc[0] < rate < row["lowest_high"].iloc[0]
 
 
 def test_bounds_need_every_triangulation():
@@ -64,7 +166,7 @@ def test_bounds_need_every_triangulation():
     tables = analyse(results, *others, asked)
     stated = tables["statements"].frame.set_index("statement")["holds"]
     assert stated["The mean LEPP size is between 2 and 4"] == "no"
-    assert stated["The standard deviation is at most sqrt 6"] == "no"
+    assert stated["The standard deviation is at most √6"] == "no"
     frame = tables["theorem_2"].frame
     assert frame["bounds"].tolist() == ["no", "no", "yes", "yes"]
     assert frame["mean_inside"].tolist() == [5, 6, 6, 6]

@@ -4,36 +4,10 @@ from dataclasses import replace
 
 import pandas as pd
 import pytest
-from frames import design, frames
 
-from study.analysis import analyse
 from study.analysis.building import Study
 from study.analysis.measurements import Measurements
 from study.paper import statements
-
-
-@pytest.mark.parametrize(
-    ("low", "width", "holds"),
-    [(0.25, 0.001, "no"), (0.40, 0.001, "yes"), (0.30, 0.3, "undecided")],
-    ids=["one size surely below", "all surely above", "one size unsure"],
-)
-def test_one_group_surely_below_a_third_refutes_the_premise(low, width, holds):
-    asked = design(distributions=("uniform",))
-    results, *others = frames(asked)
-    inside = results["n_interior_longest"]
-    share = 0.45 + 0.001 * results["replicate"]
-    first = results["n_points"] == 1000
-    share[first] = low + width * (results["replicate"][first] % 2)
-    unsure = results["n_points"] == 2000
-    if holds == "no":  # a size that leaves it open does not outweigh the one that refutes
-        share[unsure] = 0.2 + 0.3 * (results["replicate"][unsure] % 2)
-    results["n_type_c"] = (share * inside).astype(int)
-    tables = analyse(results, *others, asked)
-    premise = tables["theorem_2"].frame["premise"]
-    assert premise[0] == holds
-    assert ("undecided" in set(premise)) == (holds != "yes")
-    stated = tables["statements"].frame.set_index("statement")["holds"]
-    assert stated["The probability p of a type C neighbour is at least 1/3"] == holds
 
 
 def judged(study, table, **values):
@@ -46,10 +20,29 @@ def judged(study, table, **values):
     return dict(zip(rows["statement"], rows["holds"], strict=True))
 
 
-@pytest.mark.parametrize(("off", "holds"), [(0.0099, "yes"), (-0.0101, "no"), (0.4, "no")])
-def test_moments_must_be_within_one_per_cent(study, off, holds):
-    told = judged(study, "theorem_1", relative_difference=off)
-    assert [told[s] for s in told if s.endswith("within 1 %")] == [holds] * 4
+@pytest.mark.parametrize("holds", ["yes", "no", "undecided"])
+def test_premise_of_theorem_2_is_the_tables(study, holds):
+    of = "The probability p of a type C neighbour is at least 1/3, at every step"
+    assert judged(study, "theorem_2", premise=holds)[of] == holds
+    first = study[2]["theorem_2"].frame["n_points"] == 1000
+    one = first.map({True: holds, False: "yes"})
+    assert judged(study, "theorem_2", premise=one)[of] == holds
+
+
+@pytest.mark.parametrize(
+    ("verdict", "holds"), [("rejected", "no"), ("not rejected", "not rejected")]
+)
+def test_theorem_1_is_one_statement_on_its_premise(study, verdict, holds):
+    told = judged(study, "path_laws", verdict=verdict)
+    (statement,) = [s for s in told if s.startswith("Every step of a path ends")]
+    assert told[statement] == holds
+
+
+def test_geometric_meshes_do_not_refute_theorem_1(study):
+    frame = study[2]["statements"].frame
+    rows = frame[frame["source"] == "Theorem 1"]
+    assert len(rows) == 4
+    assert (rows["holds"] == "not rejected").sum() >= 3  # one in twenty is by chance
 
 
 @pytest.mark.parametrize(
@@ -76,11 +69,12 @@ def test_the_cost_has_a_limit_if_the_saturating_model_is_clearly_better(
 def test_means_differ_if_the_analysis_of_variance_says_so(study):
     differ = "The means of the groups differ"
     assert judged(study, "anova", p=0.049)[differ] == "yes"
-    assert judged(study, "anova", p=0.051)[differ] == "no"
+    assert judged(study, "anova", p=0.051)[differ] == "not shown"
 
 
 def test_bounds_and_t_tests_need_every_group(study):
     below = "The mean is significantly below 4 and above 2 in every group"
     assert judged(study, "bounds", verdict="rejected")[below] == "yes"
-    one = study[2]["bounds"].frame["verdict"].where(study[2]["bounds"].frame.index > 0, "no")
-    assert judged(study, "bounds", verdict=one)[below] == "no"
+    first = study[2]["bounds"].frame.index == 0
+    one = study[2]["bounds"].frame["verdict"].mask(first, "not rejected")
+    assert judged(study, "bounds", verdict=one)[below] == "not shown"

@@ -2,7 +2,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from reports.text.numbers import count, large, listed, p_value_from_log10, show, thousands
+from study.analysis.numbers import count, large, listed, p_value_from_log10, show, thousands
 
 
 @pytest.mark.parametrize(
