@@ -13,6 +13,7 @@ from study.statistics.fitting import (
 )
 from study.statistics.groups import Groups, NotEnough
 from study.statistics.models import LINEAR_MODELS, SATURATING
+from study.statistics.variance_function import power_law_variances
 
 LINEAR, QUADRATIC, LOGISTIC, LOGARITHMIC = LINEAR_MODELS
 SIZES = np.array([10, 20, 40, 80, 160, 320]) * 1000
@@ -38,9 +39,9 @@ def saturation(x):
 
 
 def weights_of(groups, transform=lambda y: y):
-    """Reciprocal sample variances, a value a triangulation."""
-    spreads = [1 / np.var(transform(values), ddof=1) for values in groups.values]
-    return np.repeat(spreads, groups.counts)
+    """Reciprocal variances, a power of the size, a value a triangulation."""
+    changed = Groups(groups.n_points, tuple(transform(values) for values in groups.values))
+    return np.repeat(1 / power_law_variances(changed), groups.counts)
 
 
 # Observations
@@ -58,11 +59,7 @@ def test_observations():
     assert plain.weights(seen.y).tolist() == [1.0] * sum(COUNTS)
 
 
-def test_groups_without_a_variance_have_no_weight():
-    values = (np.array([3.0, 3.1]), np.array([3.0]), np.array([3.2, 3.2]), np.array([3.1, 3.3]))
-    groups = Groups(np.array([1000, 2000, 3000, 4000]), values)
-    assert set(Observations.of(groups, weighted=True).x) == {1.0, 4.0}
-    assert set(Observations.of(groups, weighted=False).x) == {1.0, 2.0, 3.0, 4.0}
+def test_weights_need_a_variance():
     none = Groups(np.array([1000]), (np.array([3.0]),))
     with pytest.raises(NotEnough, match="no size has two or more differing"):
         Observations.of(none, weighted=True)
@@ -126,10 +123,10 @@ def test_information_is_of_the_likelihood_of_y(model, weighted):
     fit = (fit_saturating if model is SATURATING else fit_linear)(model, seen)
     w = weights_of(groups) if weighted else np.ones(len(seen.y))
     residuals = seen.y - fit.predict(seen.x)
-    # sigma^2 / w are the variances; sigma at its most likely
-    sigma = np.sqrt(np.mean(w * residuals**2))
-    likelihood = stats.norm.logpdf(residuals, 0, sigma / np.sqrt(w)).sum()
-    parameters = len(fit.coefficients) + 1
+    # 1 / w are the variances, which count as known; without weights, one at its most likely
+    sigma = 1 / np.sqrt(w) if weighted else np.sqrt(np.mean(residuals**2))
+    likelihood = stats.norm.logpdf(residuals, 0, sigma).sum()
+    parameters = len(fit.coefficients) + (not weighted)
     quality = fit.quality()
     assert quality["aic"] == pytest.approx(2 * parameters - 2 * likelihood)
     assert quality["bic"] == pytest.approx(parameters * np.log(len(w)) - 2 * likelihood)
