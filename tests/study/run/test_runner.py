@@ -30,6 +30,7 @@ TASKS = TRIANGULATIONS.tasks_of(DESIGN)
 FILES = (
     "results.parquet",
     "histograms.parquet",
+    "layers.parquet",
     "regions.parquet",
     "point_sets.parquet",
     "manifest.json",
