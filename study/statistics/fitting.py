@@ -53,12 +53,12 @@ class Observations:
         """Weight of each observation for a fit to `y`, (n,) float64."""
         if not self.weighted:
             return np.ones(len(y))
-        sizes = np.arange(self.group[-1] + 1)
-        groups = Groups(
-            (1000 * self.group_means(self.x)).round().astype(np.int64),
-            tuple(y[self.group == size] for size in sizes),
-        )
-        return 1 / power_law_variances(groups)[self.group]
+        return 1 / power_law_variances(self.groups(y))[self.group]
+
+    def groups(self, y: np.ndarray) -> Groups:
+        """Part `y` by size."""
+        sizes = (1000 * self.group_means(self.x)).round().astype(np.int64)
+        return Groups(sizes, tuple(y[self.group == k] for k in range(len(sizes))))
 
     def group_means(self, y: np.ndarray) -> np.ndarray:
         """Mean of `y` in each group, (g,) float64."""

@@ -148,7 +148,7 @@ def judge(means: SizeMeans, published_up_to: int) -> LimitVerdict:
     if len(means) < LEAST_SIZES:
         raise NotEnough(f"a verdict on the limit needs {LEAST_SIZES} sizes, not {len(means)}")
     fitted = sizes_to_fit(means.n_points, published_up_to, LEAST_FITTED)
-    survivors = _survivors(candidates(means, fitted))
+    survivors = survivors_of(candidates(means, fitted))
     family = PowerFamily(means)
     decade = per_decade(means)
     verdict, reason = _verdict(survivors, family, decade)
@@ -193,9 +193,7 @@ def _verdict(
     return UNDECIDED, SEVERAL if some else NONE_FITS
 
 
-def _limit(
-    means: SizeMeans, survivors: tuple[Candidate, ...], reason: str
-) -> ProfileInterval:
+def _limit(means: SizeMeans, survivors: tuple[Candidate, ...], reason: str) -> ProfileInterval:
     if reason == LEVEL:
         return limit_of(CONSTANT, means)
     with_limit = [one.model for one in survivors if one.model in (*EDGE_MODELS, SATURATING)]
@@ -214,6 +212,7 @@ def _scaled(interval: ProfileInterval, by: float) -> ProfileInterval:
     return ProfileInterval(interval.estimate * by, interval.low * by, interval.high * by)
 
 
-def _survivors(scored: Iterable[Candidate]) -> tuple[Candidate, ...]:
+def survivors_of(scored: Iterable[Candidate]) -> tuple[Candidate, ...]:
+    """Return the candidates that are not out, the lowest AIC first."""
     left = sorted((one for one in scored if not one.refuted), key=lambda one: one.aic)
     return tuple(one for one in left if one.aic - left[0].aic <= CLEAR_AIC)

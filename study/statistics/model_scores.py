@@ -98,10 +98,33 @@ def coefficient_interval(model: LinearModel, seen: SizeMeans, place: int) -> Pro
 
     For a model that is linear in its coefficients it is the profile likelihood interval.
     """
+    return _interval_along(model, seen, np.eye(len(model.terms))[place])
+
+
+def value_interval(model: Model, seen: SizeMeans, x: float) -> ProfileInterval:
+    """Mean LEPP size at x thousand points by the weighted fit, with its interval.
+
+    The interval holds if the model is true. That of a power model is of all powers.
+    """
+    if not isinstance(model, LinearModel):
+        return PowerFamily(seen).value(x)
+    found = _interval_along(model, seen, model.basis(np.array([x]))[0])
+    return ProfileInterval(
+        *(
+            float(model.inverse(np.array(value)))
+            for value in (found.estimate, found.low, found.high)
+        )
+    )
+
+
+def _interval_along(model: LinearModel, seen: SizeMeans, direction: np.ndarray) -> ProfileInterval:
     basis, z, weights = _regression(model, seen)
-    covariance = np.linalg.inv(basis.T @ (basis * weights[:, None]))
-    estimate = float(weighted_least_squares(basis, z, weights)[place])
-    half = t_quantile(seen.df) * float(np.sqrt(covariance[place, place]))
+    root = np.sqrt(weights)
+    # By QR: powers of x of very different size leave the normal equations no digits.
+    q, r = np.linalg.qr(basis * root[:, None])
+    along = np.linalg.solve(r.T, direction)
+    estimate, half = float(along @ (q.T @ (z * root))), float(np.sqrt(along @ along))
+    half *= t_quantile(seen.df)
     return ProfileInterval(estimate, estimate - half, estimate + half)
 
 
@@ -179,9 +202,7 @@ def sizes_to_fit(n_points: np.ndarray, up_to: int, least: int) -> np.ndarray:
     return fitted
 
 
-def _regression(
-    model: LinearModel, seen: SizeMeans
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _regression(model: LinearModel, seen: SizeMeans) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     z = transformed(model, seen.means)
     step = seen.standard_errors / 100
     slope = (model.transform(seen.means + step) - model.transform(seen.means - step)) / (2 * step)

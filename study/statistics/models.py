@@ -92,9 +92,7 @@ LINEAR_MODELS = (
 )
 LINEAR, QUADRATIC, LOGISTIC, LOGARITHMIC = LINEAR_MODELS
 
-CONSTANT = LinearModel(
-    "constant", "c", ("c",), lambda x: np.ones((len(x), 1)), has_limit=True
-)
+CONSTANT = LinearModel("constant", "c", ("c",), lambda x: np.ones((len(x), 1)), has_limit=True)
 #: Slower than every power of the logarithm, and yet without limit.
 DOUBLY_LOGARITHMIC = LinearModel(
     "doubly logarithmic",
@@ -114,7 +112,7 @@ EDGE = LinearModel(
 #: An edge whose depth grows with the logarithm of n.
 THICKENING_EDGE = LinearModel(
     "thickening edge",
-    "c + (b + d ln x) x^(-1/2)",
+    "c + (b + d ln(x)) x^(-1/2)",
     ("c", "b", "d"),
     lambda x: np.column_stack([np.ones_like(x), x**-0.5, np.log(x) * x**-0.5]),
     has_limit=True,

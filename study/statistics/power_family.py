@@ -87,7 +87,7 @@ class PowerFamily:
         -------
         power, squares : float
         """
-        return _least(lambda at: self._lines(at).squares, _GRID[(_GRID >= least) & (_GRID <= most)])
+        return _least(lambda at: self._lines(at).squares, _GRID[(least <= _GRID) & (most >= _GRID)])
 
     @cached_property
     def power(self) -> ProfileInterval:

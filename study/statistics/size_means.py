@@ -64,6 +64,4 @@ class SizeMeans:
 
     def where(self, kept: np.ndarray) -> "SizeMeans":
         """Only some of the sizes; the error is still that of all."""
-        return SizeMeans(
-            self.n_points[kept], self.means[kept], self.variances[kept], self.df
-        )
+        return SizeMeans(self.n_points[kept], self.means[kept], self.variances[kept], self.df)

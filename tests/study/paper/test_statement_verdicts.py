@@ -8,6 +8,7 @@ import pytest
 from scipy import stats
 
 from study.analysis.building import Study
+from study.analysis.limits import FEW
 from study.analysis.table import Column, Table, Tables
 from study.paper import statements as module
 from study.statistics.groups import NotEnough
@@ -304,34 +305,33 @@ def test_best_of_the_four_models():
     assert why == "not all four models could be fitted"
 
 
-LIMIT = "The cost of a LEPP is constant: its mean size has a limit"
+COST, LIMIT = "cost of a LEPP is constant", "has a limit"
 
 
 @pytest.mark.parametrize(
-    ("gain", "holds"),
-    [
-        (300.0, "yes"),
-        (10.001, "yes"),
-        (10.0, "undecided"),
-        (0.5, "undecided"),
-        (-0.5, "undecided"),
-        (-1.8, "undecided"),
-        (-10.0, "undecided"),
-        (-10.001, "no"),  # no fit gives it: a logarithm is nearly a saturating model
-        (-300.0, "no"),
-    ],
+    ("highest", "holds"), [(3.07, "yes"), (4.0, "yes"), (4 + JUST, "no"), (5.0, "no")]
 )
-def test_limit_by_weighted_fits(gain, holds):
-    aic = {"logarithmic": 0.0, "saturating": -gain}
-    rows = [{"fitting": "weighted", "model": model, "aic": value} for model, value in aic.items()]
-    rows += [{"fitting": "least squares", "model": m, "aic": -v} for m, v in aic.items()]
-    side = "below" if gain > 0 else "above"
-    assert judged(LIMIT, regressions=rows) == (
-        holds, f"AIC of a model with a limit {abs(gain):.1f} {side} that of the logarithmic one",
+def test_the_cost_is_constant_if_no_mean_is_above_4(highest, holds):
+    rows = [
+        {"highest_mean": 3.0, "triangulations": 40},
+        {"highest_mean": highest, "triangulations": 1000},
+    ]
+    assert judged(COST, theorem_2=rows) == (
+        holds, f"at most {highest:.4f} in 1,040 triangulations",
     )  # fmt: skip
-    for lost in ("logarithmic", "saturating"):
-        rest = [row for row in rows if (row["fitting"], row["model"]) != ("weighted", lost)]
-        assert lacking(LIMIT, regressions=rest) == "the saturating model could not be fitted"
+
+
+@pytest.mark.parametrize("verdict", ["yes", "no", "undecided"])
+def test_a_limit_is_that_of_the_whole_mesh(verdict):
+    rows = [
+        {"part": "interior", "has_limit": "else", "reason": "not this"},
+        {"part": "whole", "has_limit": verdict, "reason": "so it is"},
+    ]
+    assert judged(LIMIT, limit_verdicts=rows) == (verdict, "so it is")
+    why = lacking(LIMIT, limit_verdicts=rows[:1])
+    assert why == "the run has too few triangulations"
+    few = [{"part": "whole", "has_limit": "undecided", "reason": FEW}]
+    assert lacking(LIMIT, limit_verdicts=few) == "the run has too few sizes"
 
 
 # The table
@@ -364,6 +364,7 @@ def test_statements_are_judged_for_each_population_by_its_rows():
             "shapiro": ["normal"],
             "groups": ["mean_max_lepp", "sd_between", "mean_lepp"],
             "regressions": ["fitting", "model"],
+            "limit_verdicts": ["part"],
         }.items()
     }
     tables = {name: table_of(name, frame) for name, frame in empty.items()}
@@ -390,7 +391,7 @@ def test_the_note_says_by_what_it_is_judged():
 
 
 def test_every_statement_is_tested_here():
-    tested = [EVERY_STEP, *MOMENTS, PREMISE, *TRENDS, BEST, LIMIT]
+    tested = [EVERY_STEP, *MOMENTS, PREMISE, *TRENDS, BEST, COST, LIMIT]
     tested += ["is between 2 and 4", "is at most sqrt 6", "The variances of the groups differ"]
     tested += ["The groups are normal", "The means of the groups differ", "below 4 and above 2"]
     for _, statement, _ in ASKED:

@@ -133,9 +133,7 @@ def test_models_are_refuted_by_what_they_have_not_seen_and_by_aic():
     survivors = judge(means, PUBLISHED).survivors
     assert [one.aic for one in survivors] == sorted(one.aic for one in survivors)
     best = min(one.aic for one in scored.values() if not one.refuted)
-    expected = {
-        name for name, one in scored.items() if not one.refuted and one.aic <= best + 10
-    }
+    expected = {name for name, one in scored.items() if not one.refuted and one.aic <= best + 10}
     assert {one.model.name for one in survivors} == expected
 
 
@@ -149,9 +147,7 @@ def test_limits_and_slopes():
     mean = np.average(means.means, weights=weights)
     constant = limit_of(models.CONSTANT, means)
     assert constant.estimate == pytest.approx(mean)
-    assert constant.high - mean == pytest.approx(
-        1.968 / np.sqrt(weights.sum()), rel=2e-3
-    )
+    assert constant.high - mean == pytest.approx(1.968 / np.sqrt(weights.sum()), rel=2e-3)
 
 
 def test_too_few_sizes():

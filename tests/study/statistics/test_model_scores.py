@@ -50,9 +50,11 @@ def saturation(x):
 def fitted_by_statsmodels(name, means, kept):
     """Prediction and covariance of the errors of the sizes left out."""
     basis = np.column_stack([np.ones(8), *BASES[name]])
-    fit = WLS(means.means[kept], basis[kept], weights=1 / ERRORS[kept] ** 2).fit(cov_type="fixed scale")
+    fit = WLS(means.means[kept], basis[kept], weights=1 / ERRORS[kept] ** 2).fit(
+        cov_type="fixed scale"
+    )
     covariance = np.diag(ERRORS[~kept] ** 2) + basis[~kept] @ fit.cov_params() @ basis[~kept].T
-    return fit, fit.predict(basis[~kept]), covariance
+    return fit.predict(basis[~kept]), covariance
 
 
 def test_all_models_are_here():
@@ -63,7 +65,7 @@ def test_all_models_are_here():
 @pytest.mark.parametrize("model", LINEAR, ids=lambda model: model.name)
 def test_predictions_are_statsmodels(model):
     means = made(logarithm)
-    fit, predicted, covariance = fitted_by_statsmodels(model.name, means, SEEN)
+    predicted, covariance = fitted_by_statsmodels(model.name, means, SEEN)
     off = means.means[~SEEN] - predicted
     score = prediction_score(model, means, SEEN)
     assert score.chi_squared == pytest.approx(off @ np.linalg.solve(covariance, off), rel=1e-6)
@@ -107,12 +109,16 @@ def test_the_logistic_model_is_a_line_for_the_logit():
         least_squares(models.LOGISTIC, high)
 
 
-@pytest.mark.parametrize(("curve", "true"), [(saturation, "saturating"), (logarithm, "logarithmic")])
+@pytest.mark.parametrize(
+    ("curve", "true"), [(saturation, "saturating"), (logarithm, "logarithmic")]
+)
 def test_true_models_have_few_false_alarms_and_wrong_ones_are_seen(curve, true):
     model = {one.name: one for one in models.MODELS}[true]
     below = [prediction_score(model, made(curve, seed), SEEN).p < 0.05 for seed in range(400)]
     assert 0.01 <= np.mean(below) <= 0.09
-    wrong = [prediction_score(models.LINEAR, made(curve, seed), SEEN).p < 0.05 for seed in range(20)]
+    wrong = [
+        prediction_score(models.LINEAR, made(curve, seed), SEEN).p < 0.05 for seed in range(20)
+    ]
     assert all(wrong)
 
 

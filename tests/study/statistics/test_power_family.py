@@ -29,6 +29,7 @@ def logarithm(x):
 
 def squares_at_limit(seen, c):
     """Least squares of c - exp(u) x^(-exp(v)) for a given c, by another route than a line."""
+
     def residuals(p):
         return (seen.means - c + np.exp(p[0]) * seen.x ** -np.exp(p[1])) / ERRORS
 

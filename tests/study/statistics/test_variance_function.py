@@ -14,9 +14,8 @@ COUNTS = [12, 9, 12, 6, 3, 2]
 
 def made(seed=1, counts=COUNTS):
     rng = np.random.default_rng(seed)
-    return Groups(
-        SIZES, tuple(3 + rng.normal(0, 0.4 * n**-0.45, r) for n, r in zip(SIZES, counts, strict=True))
-    )  # fmt: skip
+    values = (3 + rng.normal(0, 0.4 * n**-0.45, r) for n, r in zip(SIZES, counts, strict=True))
+    return Groups(SIZES, tuple(values))
 
 
 @pytest.mark.parametrize("seed", range(5))
