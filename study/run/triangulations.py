@@ -179,10 +179,10 @@ class Triangulations(Kind[Task, Design]):
         """Count triangulations, and the points of each."""
         return Size(len(design.methods), len(design.methods) * task.n_points)
 
-    def memory_of(self, design: Design) -> Memory:
-        """Return what one of the largest triangulations takes."""
-        largest = design.sizes[-1]
-        return Memory(f"A triangulation of {largest:,} points", largest * BYTES_PER_POINT)
+    def memory_of(self, task: Task, design: Design) -> Memory:
+        """Return what the largest of its triangulations takes; they are made one by one."""
+        n = task.n_points
+        return Memory(f"A triangulation of {n:,} points", n * BYTES_PER_POINT)
 
     def prepare(self) -> None:
         """Compile the kernels, or load them."""
