@@ -7,7 +7,7 @@ from study.analysis.model_scores import PUBLISHED_UP_TO
 from study.analysis.parts import INTERIOR, PART, PARTS, WHOLE
 from study.analysis.table import DISTRIBUTION, METHOD, Column, Declaration, Row, Table, end
 from study.statistics.edge_limit import edge_limit
-from study.statistics.groups import NotEnough
+from study.statistics.groups import Groups, NotEnough
 from study.statistics.limit_verdict import (
     GROWTH,
     LEVEL,
@@ -17,8 +17,10 @@ from study.statistics.limit_verdict import (
     SEVERAL,
     judge,
     limit_of,
+    per_decade,
 )
-from study.statistics.models import MODELS, THICKENING_EDGE
+from study.statistics.model_scores import lack_of_fit
+from study.statistics.models import CONSTANT, MODELS, THICKENING_EDGE
 from study.statistics.size_means import SizeMeans
 from study.statistics.thresholds import (
     CLEAR_AIC,
@@ -30,6 +32,8 @@ from study.statistics.thresholds import (
 from study.statistics.thresholds import LEVEL as OF_INTERVALS
 from study.statistics.verdicts import UNDECIDED, yes
 
+#: Sizes that it takes to call the interior level.
+_LEAST_LEVEL = 3
 #: Reason of a verdict for which the run has too few sizes.
 FEW = "the run has too few sizes"
 REASONS = {
@@ -108,8 +112,10 @@ EDGE_LIMITS = Declaration(
         Column("agrees", "Agrees", "", "verdict"),
     ),
     note=f"The limit c of the model {THICKENING_EDGE.formula} of the whole mesh, against the "
-    "weighted mean of the interior over all sizes; only where the interior is level. Both are of "
-    "the same triangulations, and the standard error counts what they share. Agrees: p of at "
+    "weighted mean of the interior over the larger half of the sizes; only where that is level: a "
+    "constant is not refuted, and the interval of its change with the number of points has 0 in "
+    "it. Both are of the same triangulations, and the standard error counts what they share. "
+    "Agrees: p of at "
     f"least {SIGNIFICANCE}.",
 )
 
@@ -117,19 +123,9 @@ EDGE_LIMITS = Declaration(
 @builds(LIMIT_VERDICTS, LIMITS, EDGE_LIMITS)
 def limits(study: Study) -> Iterator[Table]:
     """Judge every method, distribution and part."""
-    verdicts = list(_verdicts(study))
-    level = {
-        (row["method"], row["distribution"])
-        for row in verdicts
-        if row["part"] == INTERIOR and row["reason"] == REASONS[LEVEL]
-    }
-    yield LIMIT_VERDICTS.table(verdicts)
+    yield LIMIT_VERDICTS.table(_verdicts(study))
     yield LIMITS.table(_limits(study))
-    yield EDGE_LIMITS.table(
-        row for method, distribution in study.data.populations
-        if (method, distribution) in level
-        for row in _edge_limit(study, method, distribution)
-    )  # fmt: skip
+    yield EDGE_LIMITS.table(_edge_limits(study))
 
 
 def _means(study: Study) -> Iterator[tuple[Row, SizeMeans | None]]:
@@ -191,22 +187,36 @@ def _limits(study: Study) -> Iterator[Row]:
                 }
 
 
-def _edge_limit(study: Study, method: str, distribution: str) -> Iterator[Row]:
-    whole = study.data.groups(method, distribution, WHOLE)
-    interior = study.data.groups(method, distribution, INTERIOR)
-    try:
-        found = edge_limit(THICKENING_EDGE, whole, interior)
-    except NotEnough as lack:
-        study.lacks(method, distribution, "limit of the edge model", str(lack))
-        return
-    yield {
-        "method": method,
-        "distribution": distribution,
-        "limit": found.limit,
-        "interior": found.interior,
-        "difference": found.difference,
-        "standard_error": found.standard_error,
-        "t": found.t,
-        "p": found.p,
-        "agrees": yes(found.p >= SIGNIFICANCE),
-    }
+def _edge_limits(study: Study) -> Iterator[Row]:
+    for method, distribution in study.data.populations:
+        whole = study.data.groups(method, distribution, WHOLE)
+        interior = _larger_half(study.data.groups(method, distribution, INTERIOR))
+        try:
+            if not _is_level(SizeMeans.of(interior)):
+                continue
+            found = edge_limit(THICKENING_EDGE, whole, interior)
+        except NotEnough:  # the note says when there is one
+            continue
+        yield {
+            "method": method,
+            "distribution": distribution,
+            "limit": found.limit,
+            "interior": found.interior,
+            "difference": found.difference,
+            "standard_error": found.standard_error,
+            "t": found.t,
+            "p": found.p,
+            "agrees": yes(found.p >= SIGNIFICANCE),
+        }
+
+
+def _larger_half(groups: Groups) -> Groups:
+    half = len(groups) // 2
+    return Groups(groups.n_points[half:], groups.values[half:])
+
+
+def _is_level(means: SizeMeans) -> bool:
+    if len(means) < _LEAST_LEVEL:
+        return False
+    decade = per_decade(means)
+    return lack_of_fit(CONSTANT, means).p >= REFUTED_BELOW and decade.low <= 0 <= decade.high

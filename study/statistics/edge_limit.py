@@ -52,7 +52,8 @@ def edge_limit(model: LinearModel, whole: Groups, interior: Groups) -> EdgeLimit
     model : LinearModel
         Its first coefficient is a limit.
     whole, interior : Groups
-        Mean LEPP sizes of the same triangulations, in the same order.
+        Mean LEPP sizes of the same triangulations, in the same order; the interiors of only some
+        of the sizes.
 
     Raises
     ------
@@ -64,21 +65,17 @@ def edge_limit(model: LinearModel, whole: Groups, interior: Groups) -> EdgeLimit
     Both numbers are weighted sums of the triangulations' means, so that their difference is one,
     and its variance the sum of the variances inside the groups.
     """
-    counts = whole.counts.tolist()
-    if counts != interior.counts.tolist() or min(counts, default=0) < 2:
+    at = np.searchsorted(whole.n_points, interior.n_points)
+    if whole.counts[at].tolist() != interior.counts.tolist() or (whole.counts < 2).any():
         raise NotEnough("some triangulations have no interior, or a size has only one")
     if len(whole) < len(model.terms):
         raise NotEnough(f"the {model.name} model needs {len(model.terms)} sizes, not {len(whole)}")
     of_limit = _shares(model.basis, SizeMeans.of(whole))
     of_interior = _shares(CONSTANT.basis, SizeMeans.of(interior))
-    parts = np.array(
-        [
-            (a * one - b * other).var(ddof=1) / len(one)
-            for a, b, one, other in zip(
-                of_limit, of_interior, whole.values, interior.values, strict=True
-            )
-        ]
-    )
+    summands = [share * values for share, values in zip(of_limit, whole.values, strict=True)]
+    for place, share, values in zip(at, of_interior, interior.values, strict=True):
+        summands[place] = summands[place] - share * values
+    parts = np.array([each.var(ddof=1) / len(each) for each in summands])
     df = parts.sum() ** 2 / (parts**2 / (whole.counts - 1)).sum()
     return EdgeLimit(
         float(of_limit @ whole.means),
