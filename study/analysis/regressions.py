@@ -266,6 +266,7 @@ def _curves(study: Study) -> Iterator[Row]:
 
 def _points(seen: SizeMeans, n_points: np.ndarray) -> Iterator[Row]:
     at = np.geomspace(n_points[0], _BEYOND * n_points[-1], _CURVE_POINTS).round()
+    at = np.union1d(at, n_points)
     for model in DRAWN:
         if len(seen) > len(model.terms):
             for n in at:

@@ -7,6 +7,7 @@ from reports.page.views import distribution_name
 from reports.study_page.sections import (
     agreement,
     data,
+    edge,
     methods,
     provenance,
     regions,
@@ -31,7 +32,7 @@ _MOST_ALARMS = 6
 
 def all_sections(evidence: Evidence) -> list[Section]:
     """Make every section that the run gives reason for."""
-    modules = [summary, agreement, theory, statistics, regressions]
+    modules = [summary, agreement, theory, statistics, edge, regressions]
     if len(evidence.design.methods) > 1:
         modules.append(methods)
     modules += [regions, data, provenance]

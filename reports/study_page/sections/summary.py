@@ -16,19 +16,18 @@ from reports.page.blocks import (
 from reports.page.evidence import Evidence
 from reports.page.views import View
 from reports.study_page.explorer import EXPLORER_POINTS, EXPLORER_TRIANGLES, N_POINTS
-from reports.study_page.sections.regressions import best
+from reports.study_page.sections.regressions import trend_sentence
 from reports.study_page.tables import TABLE_4
 from reports.text.numbers import count, large, listed, show
 from reports.text.words import LEVEL, PREMISE
 from study.analysis.group_summaries import GROUPS, OVERVIEW
 from study.analysis.terminal_regions import REGIONS
 from study.analysis.theorems import MEAN, SD, THEOREM_1, THEOREM_2
-from study.analysis.variance_analysis import ANOVA, WELCH
 from study.paper.judging import AGREES, CLOSE, DIFFERS
 from study.paper.published import REFERENCE_METHOD
 from study.paper.reproduction import SUMMARY
 from study.paper.statements import NOT_TESTED, STATEMENTS
-from study.statistics.thresholds import CLOSE_UP_TO, ONE_PERCENT, SIGNIFICANCE, WITHIN_ONE_PERCENT
+from study.statistics.thresholds import CLOSE_UP_TO, ONE_PERCENT, WITHIN_ONE_PERCENT
 from study.statistics.verdicts import NO, UNDECIDED, YES, all_of
 
 
@@ -135,7 +134,7 @@ def _off(relative: float) -> str:
 
 
 def _sentences(evidence: Evidence, view: View) -> list[str] | None:
-    parts = (_spread(evidence, view), _growth(evidence, view), _theory(evidence, view))
+    parts = (_spread(evidence, view), trend_sentence(evidence, view), _theory(evidence, view))
     sentences = [part for part in parts if part]
     return sentences or None
 
@@ -151,30 +150,6 @@ def _spread(evidence: Evidence, view: View) -> str | None:
         f"through {show(group['mean_lepp'], 'fixed2')} triangles on average. In "
         f"{count(overview['triangulations'], 'triangulation')} with {large(overview['triangles'])} "
         f"triangles, no path was longer than {overview['max_lepp']}."
-    )
-
-
-def _growth(evidence: Evidence, view: View) -> str | None:
-    test = evidence.one(ANOVA, view, test=WELCH)
-    groups = evidence.rows(TABLE_4, view)
-    if test is None or len(groups) < 2:
-        return None
-    first, last = groups.first, groups.last
-    if test["p"] >= SIGNIFICANCE:
-        return (
-            "The mean does not depend on the number of points, as far as this run can tell "
-            f"(Welch's analysis of variance, p\u00a0=\u00a0{show(test['log10_p'], 'log10p')})."
-        )
-    direction = "grows" if last["mean_lepp"] > first["mean_lepp"] else "falls"
-    sentence = (
-        f"The mean {direction} with the number of points, from "
-        f"{show(first['mean_lepp'], 'fixed4')} at {first['n_points']:,} to "
-        f"{show(last['mean_lepp'], 'fixed4')} at {last['n_points']:,} "
-        f"(Welch's analysis of variance, p\u00a0=\u00a0{show(test['log10_p'], 'log10p')})"
-    )
-    chosen = best(evidence, view)
-    return sentence + (
-        f"; the {chosen['model']} model describes it best by AIC." if chosen is not None else "."
     )
 
 

@@ -89,7 +89,7 @@ def without_references(node: object) -> object:
 def test_sections_come_in_the_order_of_the_questions(parts: list[Section]) -> None:
     compared = ["methods"] if len(DESIGN.methods) > 1 else []
     assert [section.id for section in parts] == [
-        "found", "agreement", "theory", "statistics", "regressions", *compared, "regions",
+        "found", "agreement", "theory", "statistics", "edge", "regressions", *compared, "regions",
         "data", "made",
     ]  # fmt: skip
 
