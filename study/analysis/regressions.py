@@ -1,4 +1,8 @@
-"""Table 7 and Figures 6 and 7: regressions of the mean LEPP size on the number of points."""
+"""Table 7 and Figures 6 and 7: regressions of the mean LEPP size on the number of points.
+
+Least squares, of the paper's four models, is for the comparison with its Table 7 only: variances
+are not equal. All else goes by the weighted fits.
+"""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -6,7 +10,18 @@ from typing import NamedTuple
 import numpy as np
 
 from study.analysis.building import Study, builds
-from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Declaration, Row, Table
+from study.analysis.model_scores import PUBLISHED_UP_TO
+from study.analysis.parts import INTERIOR, PART, PARTS, WHOLE
+from study.analysis.table import (
+    DISTRIBUTION,
+    METHOD,
+    N_POINTS,
+    Column,
+    Declaration,
+    Row,
+    Table,
+    end,
+)
 from study.statistics.fitting import (
     Fit,
     Observations,
@@ -15,25 +30,38 @@ from study.statistics.fitting import (
     leave_one_group_out,
 )
 from study.statistics.groups import NotEnough
+from study.statistics.limit_verdict import LEAST_FITTED
+from study.statistics.model_scores import predict, sizes_to_fit
 from study.statistics.models import (
+    DOUBLY_LOGARITHMIC,
+    EDGE,
+    EDGE_MODELS,
+    LINEAR,
     LINEAR_MODELS,
+    LOGARITHMIC,
     SATURATING,
+    THICKENING_EDGE,
     LinearModel,
     SaturatingModel,
-    logistic,
 )
+from study.statistics.power_family import PowerFamily
+from study.statistics.size_means import SizeMeans
 from study.statistics.thresholds import LEVEL
-from study.statistics.verdicts import UNDECIDED
 
 LEAST_SQUARES, WEIGHTED = "least squares", "weighted"
-#: How the observations are weighted, by what the tables call it.
-FITTINGS = {LEAST_SQUARES: False, WEIGHTED: True}
-#: All models, in the order of the tables.
-MODELS = (*LINEAR_MODELS, SATURATING)
-#: The parts of the fitted curves: in the range of the data, and far beyond it.
-INSIDE, BEYOND = "data", "projection"
-#: Where the models are asked for predictions, in points.
-_FAR = (10**6, 10**7, 10**8, 10**9)
+_ALL = (*LINEAR_MODELS, DOUBLY_LOGARITHMIC, *EDGE_MODELS, SATURATING)
+#: Which models are fitted to which part, by how they are fitted.
+FITTED = (
+    (LEAST_SQUARES, WHOLE, LINEAR_MODELS),
+    (WEIGHTED, WHOLE, _ALL),
+    (WEIGHTED, INTERIOR, _ALL),
+)
+#: The models whose curves are drawn; a straight line and the logistic model are one to the eye.
+DRAWN = (LOGARITHMIC, SATURATING, THICKENING_EDGE, EDGE, LINEAR)
+#: The curves of the fits to all sizes, and of those to the sizes from which others are predicted.
+ALL_SIZES, PREDICTION = "all sizes", "prediction"
+#: Curves are drawn so far beyond the largest size, and by so many points.
+_BEYOND, _CURVE_POINTS = 10, 31
 
 _MODEL = Column("model", "Model")
 _FITTING = Column("fitting", "Fitted by")
@@ -44,6 +72,7 @@ REGRESSIONS = Declaration(
     (
         METHOD,
         DISTRIBUTION,
+        PART,
         _MODEL,
         _FITTING,
         Column("formula", "Formula, x in thousands of points"),
@@ -61,14 +90,14 @@ REGRESSIONS = Declaration(
         Column("rmse", "Root mean square residual", "triangles", "g4"),
         Column("left_out_rmse", "Error of left-out groups", "triangles", "g4"),
     ),
-    note="One observation a triangulation; weights are reciprocal variances of the groups, for "
-    "variances are not equal. The logistic model is a straight line for ln(y / (4 - y)), as "
+    note="One observation a triangulation; weights are reciprocal variances, which are a power of "
+    "the number of points. The logistic model is a straight line for ln(y / (4 - y)), as "
     "the published coefficients and R squared are; its adjusted R squared, F and p are on that "
     "scale. AIC, BIC and both errors are on the scale of y for all models, "
-    "and so comparable: AIC and BIC among the fits of the same observations. The weights "
-    "count as known. Lack of fit compares the model's residuals with the spread inside the "
-    "groups: a small p says that the model does not follow the groups' means. The left-out "
-    "error is that of a group's mean predicted from all other groups. F and p of the "
+    "and so comparable: AIC and BIC among the fits of the same observations. Weights "
+    "count as known variances. Lack of fit compares the model's residuals with the spread "
+    "inside the groups: a small p says that the model does not follow the groups' means. The "
+    "left-out error is that of a group's mean predicted from all other groups. F and p of the "
     "saturating model are those of its linearisation.",
 )
 
@@ -78,6 +107,7 @@ COEFFICIENTS = Declaration(
     (
         METHOD,
         DISTRIBUTION,
+        PART,
         _MODEL,
         _FITTING,
         Column("term", "Coefficient"),
@@ -87,41 +117,9 @@ COEFFICIENTS = Declaration(
         Column("high", f"{LEVEL} to", "", "g4"),
     ),
     note="x is in thousands of points. Intervals suppose that the model is true; those of the fits "
-    "by least squares also that all groups have the same variance, which Levene's test tells.",
-)
-
-PROJECTIONS = Declaration(
-    "projections",
-    "Projections to 10^6 to 10^9 points (Figure 7)",
-    (
-        METHOD,
-        DISTRIBUTION,
-        _MODEL,
-        _FITTING,
-        N_POINTS,
-        Column("prediction", "Mean LEPP", "triangles", "g5"),
-        Column("low", f"{LEVEL} from", "triangles", "g5"),
-        Column("high", f"{LEVEL} to", "triangles", "g5"),
-    ),
-    note="Far outside the data. The intervals hold only if the model is true: that they "
-    "exclude one another shows that at most one of the models can be.",
-)
-
-LIMITS = Declaration(
-    "limits",
-    "Limits of the regressions",
-    (
-        METHOD,
-        DISTRIBUTION,
-        _MODEL,
-        _FITTING,
-        Column("limit", "As the number of points grows, the mean"),
-        Column("value", "Limit", "triangles", "fixed4"),
-        Column("low", f"{LEVEL} from", "triangles", "fixed4"),
-        Column("high", f"{LEVEL} to", "triangles", "fixed4"),
-    ),
-    note="From the sign of the coefficient that outgrows the others, undecided where its interval "
-    "contains zero.",
+    "by least squares also that all groups have the same variance, which Levene's test tells. "
+    "Those of the saturating model are by profile likelihood, an empty end says that there is "
+    "none; no standard error stands for them.",
 )
 
 CURVES = Declaration(
@@ -130,12 +128,14 @@ CURVES = Declaration(
     (
         METHOD,
         DISTRIBUTION,
+        PART,
         _MODEL,
         Column("view", "View"),
         N_POINTS,
         Column("prediction", "Mean LEPP", "triangles", "fixed4"),
     ),
-    note="Curves of the fits by least squares.",
+    note="Curves of the weighted fits: to all sizes, and to those from which the others are "
+    "predicted.",
 )
 
 
@@ -144,6 +144,7 @@ class Key(NamedTuple):
 
     method: str
     distribution: str
+    part: str
     model: str
     fitting: str
 
@@ -156,42 +157,42 @@ class Key(NamedTuple):
 Fits = dict[Key, Fit]
 
 
-def _name(model: str, fitting: str) -> str:
-    return f"{model} regression, {fitting}"
+def _name(model: str, fitting: str, part: str = WHOLE) -> str:
+    return f"{model} regression, {fitting}{', interior' if part == INTERIOR else ''}"
 
 
-def _left_out_name(model: str, fitting: str) -> str:
-    return f"leave-one-group-out error of the {model} regression, {fitting}"
+def _left_out_name(model: str, fitting: str, part: str = WHOLE) -> str:
+    return f"leave-one-group-out error of the {_name(model, fitting, part)}"
 
 
 #: What is missing where means show no saturation, which says something of them.
 SATURATION_MISSING = frozenset(
-    name(SATURATING.name, fitting) for name in (_name, _left_out_name) for fitting in FITTINGS
+    name(SATURATING.name, WEIGHTED, part) for name in (_name, _left_out_name) for part in PARTS
 )
 
 
-@builds(REGRESSIONS, COEFFICIENTS, PROJECTIONS, LIMITS, CURVES)
+@builds(REGRESSIONS, COEFFICIENTS, CURVES)
 def regressions(study: Study) -> Iterator[Table]:
-    """Fit every model, both ways, for every method and distribution, and look at the fits."""
+    """Fit the models to every method, distribution and part, and look at the fits."""
     fits = _fit_all(study)
     yield REGRESSIONS.table(list(_regressions(study, fits)))
-    yield COEFFICIENTS.table(_coefficients(fits))
-    yield PROJECTIONS.table(_projections(fits))
-    yield LIMITS.table(key.row | _limit(fit) for key, fit in fits.items())
-    yield CURVES.table(_curves(fits))
+    yield COEFFICIENTS.table(row for key, fit in fits.items() for row in _coefficients(key, fit))
+    yield CURVES.table(_curves(study))
 
 
 def _fit_all(study: Study) -> Fits:
     fits: Fits = {}
     for method, distribution in study.data.populations:
-        groups = study.data.groups(method, distribution)
-        for fitting, weighted in FITTINGS.items():
-            for model in MODELS:
-                key = Key(method, distribution, model.name, fitting)
+        for fitting, part, models in FITTED:
+            groups = study.data.groups(method, distribution, part)
+            if part == INTERIOR and not len(groups):
+                continue  # small meshes have none
+            for model in models:
+                key = Key(method, distribution, part, model.name, fitting)
                 try:
-                    fits[key] = _fit(model, Observations.of(groups, weighted))
+                    fits[key] = _fit(model, Observations.of(groups, fitting == WEIGHTED))
                 except NotEnough as lack:
-                    study.lacks(method, distribution, _name(model.name, fitting), str(lack))
+                    study.lacks(method, distribution, _name(model.name, fitting, part), str(lack))
     return fits
 
 
@@ -211,61 +212,63 @@ def _regressions(study: Study, fits: Fits) -> Iterator[Row]:
         try:
             row["left_out_rmse"] = leave_one_group_out(fit.model, fit.observations)
         except NotEnough as lack:
-            what = _left_out_name(key.model, key.fitting)
+            what = _left_out_name(key.model, key.fitting, key.part)
             study.lacks(key.method, key.distribution, what, str(lack))
         yield row | fit.quality()
 
 
-def _coefficients(fits: Fits) -> Iterator[Row]:
-    """Coefficients with their t intervals."""
-    for key, fit in fits.items():
-        for term, estimate, error, low, high in zip(
-            fit.model.terms, fit.coefficients, fit.standard_errors, *fit.intervals, strict=True
-        ):
-            yield key.row | {
-                "term": term,
-                "estimate": estimate,
-                "standard_error": error,
-                "low": low,
-                "high": high,
-            }
-
-
-def _projections(fits: Fits) -> Iterator[Row]:
-    """Predict the mean LEPP size at 10^6 to 10^9 points by each model."""
-    x = np.array(_FAR) / 1000
-    for key, fit in fits.items():
-        for n, value, low, high in zip(_FAR, fit.predict(x), *fit.predict_interval(x), strict=True):
-            yield key.row | {"n_points": n, "prediction": value, "low": low, "high": high}
-
-
-def _limit(fit: Fit) -> Row:
-    low, high = fit.intervals
-    if not low[-1] > 0 and not high[-1] < 0:
-        return {"limit": UNDECIDED}
+def _coefficients(key: Key, fit: Fit) -> Iterator[Row]:
+    """Coefficients with their intervals."""
     if isinstance(fit.model, SaturatingModel):
-        return {
-            "limit": "tends to a limit",
-            "value": fit.coefficients[0],
-            "low": low[0],
-            "high": high[0],
+        yield from _saturating_coefficients(key, fit)
+        return
+    for term, estimate, error, low, high in zip(
+        fit.model.terms, fit.coefficients, fit.standard_errors, *fit.intervals, strict=True
+    ):
+        yield key.row | {
+            "term": term,
+            "estimate": estimate,
+            "standard_error": error,
+            "low": low,
+            "high": high,
         }
-    if fit.model.inverse is logistic:
-        return {"limit": "tends to a limit", "value": fit.predict(np.array([np.inf]))[0]}
-    return {"limit": "grows without bound" if low[-1] > 0 else "falls without bound"}
 
 
-def _curves(fits: Fits) -> Iterator[Row]:
-    """Points of the curves fitted by least squares."""
-    for key, fit in fits.items():
-        if key.fitting != LEAST_SQUARES:
-            continue
-        names: Row = {"method": key.method, "distribution": key.distribution, "model": key.model}
-        for view, n in _views(fit.observations.x * 1000):
-            for at, value in zip(n, fit.predict(n / 1000), strict=True):
-                yield names | {"view": view, "n_points": int(at), "prediction": value}
+def _saturating_coefficients(key: Key, fit: Fit) -> Iterator[Row]:
+    family = PowerFamily(SizeMeans.of(fit.observations.groups(fit.observations.y)))
+    power = family.power
+    intervals = {"c": (np.nan, np.nan), "a": (np.nan, np.nan), "b": (-power.high, -power.low)}
+    try:
+        limit = family.value(np.inf)
+        intervals["c"] = (limit.low, limit.high)
+    except NotEnough:  # at the very end of the exponents
+        pass
+    for term, estimate in zip(fit.model.terms, fit.coefficients, strict=True):
+        low, high = intervals[term]
+        yield key.row | {"term": term, "estimate": estimate, "low": end(low), "high": end(high)}
 
 
-def _views(n: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
-    yield INSIDE, np.unique(np.linspace(n.min(), n.max(), 41).round())
-    yield BEYOND, np.unique(np.geomspace(n.min(), max(_FAR), 61).round())
+def _curves(study: Study) -> Iterator[Row]:
+    """Points of the curves: of fits to all sizes, and to those that predict the others."""
+    for method, distribution in study.data.populations:
+        for part in PARTS:
+            key: Row = {"method": method, "distribution": distribution, "part": part}
+            try:
+                means = SizeMeans.of(study.data.groups(method, distribution, part))
+            except NotEnough:
+                continue
+            fitted = sizes_to_fit(means.n_points, PUBLISHED_UP_TO, LEAST_FITTED)
+            views = {ALL_SIZES: means, PREDICTION: means.where(fitted)}
+            for view, seen in views.items():
+                for row in _points(seen, means.n_points):
+                    yield key | {"view": view} | row
+
+
+def _points(seen: SizeMeans, n_points: np.ndarray) -> Iterator[Row]:
+    at = np.geomspace(n_points[0], _BEYOND * n_points[-1], _CURVE_POINTS).round()
+    at = np.union1d(at, n_points)
+    for model in DRAWN:
+        if len(seen) > len(model.terms):
+            for n in at:
+                value = predict(model, seen, n / 1000)
+                yield {"model": model.name, "n_points": int(n), "prediction": value}

@@ -71,6 +71,11 @@ DISTRIBUTION = Column("distribution", "Distribution", "", "name")
 N_POINTS = Column("n_points", "Points", "points", "int")
 
 
+def end(value: float) -> float | None:
+    """Return the end of an interval as a cell: null where the interval has none."""
+    return value if np.isfinite(value) else None
+
+
 def select(frame: pd.DataFrame, where: Mapping[str, object], of: str = "the frame") -> pd.DataFrame:
     """Rows of a frame whose columns have the values asked for.
 

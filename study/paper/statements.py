@@ -15,10 +15,11 @@ from study.analysis.building import Study, rows_of
 from study.analysis.distribution_comparison import ALIKE, ANALOGOUS, MARGIN
 from study.analysis.group_assumptions import CENTERS, LEVENE, SHAPIRO
 from study.analysis.group_summaries import GROUPS
+from study.analysis.limits import FEW, LIMIT_VERDICTS
 from study.analysis.numbers import listed, show
 from study.analysis.parts import INTERIOR, WHOLE
 from study.analysis.path_lengths import CONSTANT, CONTINUATION, PATH_LAWS
-from study.analysis.regressions import LEAST_SQUARES, REGRESSIONS, WEIGHTED
+from study.analysis.regressions import LEAST_SQUARES, REGRESSIONS
 from study.analysis.table import (
     DISTRIBUTION,
     METHOD,
@@ -31,14 +32,13 @@ from study.analysis.table import (
 from study.analysis.theorems import LEAST_MEAN, MEAN, MOST_MEAN, MOST_SD, THEOREM_1, THEOREM_2
 from study.analysis.variance_analysis import ANOVA, CLASSICAL, ETA_SQUARED
 from study.statistics.groups import NotEnough
-from study.statistics.models import LINEAR_MODELS, LOGARITHMIC, SATURATING
-from study.statistics.thresholds import CLEAR_AIC, ROUGH_RATE, SIGNIFICANCE
+from study.statistics.models import LINEAR_MODELS, LOGARITHMIC
+from study.statistics.thresholds import ROUGH_RATE, SIGNIFICANCE
 from study.statistics.verdicts import (
     NO,
     NOT_REJECTED,
     NOT_SHOWN,
     REJECTED,
-    UNDECIDED,
     YES,
     all_of,
     yes,
@@ -64,9 +64,9 @@ STATEMENTS = Declaration(
     f"{ROUGH_RATE:g}, at every size; its bounds by every single triangulation. Tests are at "
     f"{SIGNIFICANCE}. “{NOT_REJECTED}” is said of what a test could have refuted and did not, "
     f"“{NOT_SHOWN}” of what it could have shown and did not: neither is evidence. Growth and "
-    "decline are Spearman's rank correlation of the groups with the number of points. A "
-    f"limit is decided by a difference of AIC above {CLEAR_AIC:g} between the weighted fits "
-    "of the saturating and the logarithmic model.",
+    "decline are Spearman's rank correlation of the groups with the number of points. The cost is "
+    "constant if it has a bound; whether the mean also has a limit is decided by which models of "
+    "growth survive.",
 )
 
 
@@ -230,15 +230,11 @@ def _logarithmic_best(of: _Tables) -> Judged:
     return yes(ranked.iloc[0]["model"] == LOGARITHMIC.name), evidence
 
 
-def _constant_cost(of: _Tables) -> Judged:
-    aic = of.rows(REGRESSIONS, fitting=WEIGHTED).frame.set_index("model")["aic"]
-    if not {LOGARITHMIC.name, SATURATING.name} <= set(aic.index):
-        raise NotEnough("the saturating model could not be fitted")
-    gain = aic[LOGARITHMIC.name] - aic[SATURATING.name]
-    holds = YES if gain > CLEAR_AIC else NO if gain < -CLEAR_AIC else UNDECIDED
-    return holds, (
-        f"AIC of a model with a limit {abs(gain):.1f} {'below' if gain > 0 else 'above'} that of "
-        "the logarithmic one"
+def _bounded(of: _Tables) -> Judged:
+    rows = of.rows(THEOREM_2)
+    highest = rows["highest_mean"].max()
+    return yes(highest <= MOST_MEAN), (
+        f"at most {highest:.4f} in {rows['triangulations'].sum():,} triangulations"
     )
 
 
@@ -250,6 +246,13 @@ def _analogous(of: _Tables) -> Judged:
         f"difference is {100 * row['furthest']:.2f} %, from the {other} distribution at "
         f"{row['furthest_n']:,} points"
     )
+
+
+def _has_limit(of: _Tables) -> Judged:
+    row = of.rows(LIMIT_VERDICTS, part=WHOLE).first
+    if row["reason"] == FEW:
+        raise NotEnough(FEW)
+    return row["has_limit"], row["reason"]
 
 
 #: Source, statement, and how it is answered from the tables of one method and distribution.
@@ -315,8 +318,13 @@ _ASKED: tuple[tuple[str, str, Callable[[_Tables], Judged]], ...] = (
     ),
     (
         "Conclusions",
-        "The cost of a LEPP is constant: its mean size has a limit",
-        _constant_cost,
+        f"The cost of a LEPP is constant: its mean size is at most {MOST_MEAN:g}",
+        _bounded,
+    ),
+    (
+        "Conclusions",
+        "The mean LEPP size has a limit as the number of points grows",
+        _has_limit,
     ),
 )
 
@@ -325,7 +333,7 @@ _ASKED: tuple[tuple[str, str, Callable[[_Tables], Judged]], ...] = (
     STATEMENTS,
     needs=(
         GROUPS, LEVENE, SHAPIRO, ANOVA, BOUNDS, REGRESSIONS, CONTINUATION, PATH_LAWS, THEOREM_1,
-        THEOREM_2, ANALOGOUS,
+        THEOREM_2, ANALOGOUS, LIMIT_VERDICTS,
     ),
 )  # fmt: skip
 def statements(study: Study) -> Iterator[Row]:

@@ -10,6 +10,7 @@ from study.statistics.groups import Groups, NotEnough
 from study.statistics.intervals import t_quantile
 from study.statistics.models import ASYMPTOTE, SATURATING, LinearModel, SaturatingModel, logit
 from study.statistics.tails import log10_f_tail
+from study.statistics.variance_function import power_law_variances
 
 #: Exponents b of the saturating model that are looked at. At the lower end c - a x^(-b) is a
 #: logarithm, at the upper a constant beyond the first group.
@@ -32,7 +33,7 @@ class Observations:
     group : (n,) integer ndarray
         Index of its size.
     weighted : bool
-        Whether each is weighted by the reciprocal variance of its group.
+        Whether each is weighted by the reciprocal variance of its group, a power of its size.
     """
 
     x: np.ndarray
@@ -42,10 +43,8 @@ class Observations:
 
     @classmethod
     def of(cls, groups: Groups, weighted: bool) -> "Observations":
-        """All triangulations of the groups; weights need groups that have a variance."""
-        if weighted:
-            groups = groups.repeated()
-        if not len(groups):
+        """All triangulations of the groups; weights need a group that has a variance."""
+        if not len(groups.repeated() if weighted else groups):
             raise NotEnough("no size has two or more differing triangulations")
         group = np.repeat(np.arange(len(groups)), groups.counts)
         return cls(groups.n_points[group] / 1000, np.concatenate(groups.values), group, weighted)
@@ -54,10 +53,12 @@ class Observations:
         """Weight of each observation for a fit to `y`, (n,) float64."""
         if not self.weighted:
             return np.ones(len(y))
-        count = np.bincount(self.group)
-        deviations = y - self.group_means(y)[self.group]
-        spread = np.bincount(self.group, deviations**2) / (count - 1)
-        return 1 / spread[self.group]
+        return 1 / power_law_variances(self.groups(y))[self.group]
+
+    def groups(self, y: np.ndarray) -> Groups:
+        """Part `y` by size."""
+        sizes = (1000 * self.group_means(self.x)).round().astype(np.int64)
+        return Groups(sizes, tuple(y[self.group == k] for k in range(len(sizes))))
 
     def group_means(self, y: np.ndarray) -> np.ndarray:
         """Mean of `y` in each group, (g,) float64."""
@@ -144,13 +145,17 @@ class Fit:
 
     def _information(self) -> dict[str, float]:
         # The Gaussian likelihood of y itself, also for a model fitted to a transform of it, so
-        # that all models are compared on one scale.
+        # that all models are compared on one scale. Weights count as known variances; without
+        # them the variance is one more parameter.
         seen = self.observations
         w = seen.weights(seen.y)
         squares = (seen.y - self.predict(seen.x)) ** 2
-        n = len(seen.y)
-        log_likelihood = -n / 2 * (np.log(2 * np.pi * (w @ squares) / n) + 1) + np.log(w).sum() / 2
-        parameters = len(self.coefficients) + 1
+        n, parameters = len(seen.y), len(self.coefficients)
+        if seen.weighted:
+            log_likelihood = (np.log(w / (2 * np.pi)).sum() - w @ squares) / 2
+        else:
+            log_likelihood = -n / 2 * (np.log(2 * np.pi * squares.mean()) + 1)
+            parameters += 1
         return {
             "aic": float(2 * parameters - 2 * log_likelihood),
             "bic": float(np.log(n) * parameters - 2 * log_likelihood),
@@ -175,7 +180,7 @@ def fit_linear(model: LinearModel, seen: Observations) -> Fit:
     from statsmodels.regression.linear_model import WLS
 
     _need(model, seen)
-    z = _transformed(model, seen.y)
+    z = transformed(model, seen.y)
     found = WLS(z, model.basis(seen.x), weights=seen.weights(z)).fit()
     return Fit(model, seen, np.asarray(found.params), np.asarray(found.cov_params()))
 
@@ -197,7 +202,7 @@ def fit_saturating(model: SaturatingModel, seen: Observations) -> Fit:
     w = seen.weights(seen.y)
     b = _best_exponent(*_grouped(seen, seen.y))
     basis = np.column_stack([np.ones_like(seen.x), -(seen.x**-b)])
-    c, a = _weighted_least_squares(basis, seen.y, w)
+    c, a = weighted_least_squares(basis, seen.y, w)
     coefficients = np.array([c, a, b])
     slopes = model.gradient(seen.x, c, a, b)
     residuals = seen.y - model.values(seen.x, c, a, b)
@@ -224,7 +229,7 @@ def leave_one_group_out(model: LinearModel | SaturatingModel, seen: Observations
     predict: Predictor
     if isinstance(model, LinearModel):
         predict = _linear_predictor(model)
-        x, z, weights = _grouped(seen, _transformed(model, seen.y))
+        x, z, weights = _grouped(seen, transformed(model, seen.y))
     else:
         predict, z = _predict_saturating, y
     errors = []
@@ -237,7 +242,7 @@ def leave_one_group_out(model: LinearModel | SaturatingModel, seen: Observations
 
 def _linear_predictor(model: LinearModel) -> Predictor:
     def predict(x: np.ndarray, z: np.ndarray, w: np.ndarray, at: np.ndarray) -> float:
-        found = _weighted_least_squares(model.basis(x), z, w)
+        found = weighted_least_squares(model.basis(x), z, w)
         return float(model.inverse(model.basis(at) @ found)[0])
 
     return predict
@@ -245,14 +250,14 @@ def _linear_predictor(model: LinearModel) -> Predictor:
 
 def _predict_saturating(x: np.ndarray, z: np.ndarray, w: np.ndarray, at: np.ndarray) -> float:
     b = _best_exponent(x, z, w)
-    c, a = _weighted_least_squares(np.column_stack([np.ones_like(x), -(x**-b)]), z, w)
+    c, a = weighted_least_squares(np.column_stack([np.ones_like(x), -(x**-b)]), z, w)
     return float(SATURATING.values(at, c, a, b)[0])
 
 
 def _best_exponent(x: np.ndarray, y: np.ndarray, w: np.ndarray) -> float:
     def squares(b: float) -> float:
         basis = np.column_stack([np.ones_like(x), -(x**-b)])
-        return float(w @ (y - basis @ _weighted_least_squares(basis, y, w)) ** 2)
+        return float(w @ (y - basis @ weighted_least_squares(basis, y, w)) ** 2)
 
     found = optimize.minimize_scalar(
         lambda log_b: squares(np.exp(log_b)),
@@ -266,7 +271,8 @@ def _best_exponent(x: np.ndarray, y: np.ndarray, w: np.ndarray) -> float:
     return b
 
 
-def _weighted_least_squares(basis: np.ndarray, y: np.ndarray, w: np.ndarray) -> np.ndarray:
+def weighted_least_squares(basis: np.ndarray, y: np.ndarray, w: np.ndarray) -> np.ndarray:
+    """Coefficients of the columns of a basis that fit y best with weights w."""
     root = np.sqrt(w)
     return np.linalg.lstsq(basis * root[:, None], y * root, rcond=None)[0]
 
@@ -279,7 +285,8 @@ def _grouped(seen: Observations, z: np.ndarray) -> tuple[np.ndarray, np.ndarray,
     )
 
 
-def _transformed(model: LinearModel, y: np.ndarray) -> np.ndarray:
+def transformed(model: LinearModel, y: np.ndarray) -> np.ndarray:
+    """Means on the scale of a model's fit; NotEnough where the logistic one has none."""
     if model.transform is logit and not (y < ASYMPTOTE).all():
         raise NotEnough(f"a mean LEPP size of {ASYMPTOTE:g} or more has no logistic model")
     return model.transform(y)

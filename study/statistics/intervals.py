@@ -35,31 +35,44 @@ def mean_interval(values: np.ndarray) -> tuple[float, float, float]:
     return mean, float(mean - half), float(mean + half)
 
 
-def ratio_interval(ended: np.ndarray, reached: np.ndarray) -> tuple[float, float, float, float]:
+def ratio_of_sums(
+    numerators: np.ndarray, denominators: np.ndarray
+) -> tuple[float, float, float, float]:
     """Ratio of two sums over independent triangulations, with its linearised standard error.
 
     Parameters
     ----------
-    ended, reached : (r,) int64 ndarray
+    numerators, denominators : (r,) int64 ndarray
         A pair of counts a triangulation.
 
     Returns
     -------
-    rate, standard_error, low, high : float
+    ratio, standard_error, low, high : float
         Error and t interval are NaN for fewer than two triangulations, or equal ratios.
 
     Notes
     -----
     Cochran (1977), Sampling Techniques, section 6.3.
     """
-    r, total = len(reached), reached.sum()
-    rate = ended.sum() / total
-    squares = ((ended - rate * reached) ** 2).sum()
+    r, total = len(denominators), denominators.sum()
+    ratio = numerators.sum() / total
+    squares = ((numerators - ratio * denominators) ** 2).sum()
     if r < 2 or not squares > 0:
-        return float(rate), np.nan, np.nan, np.nan
+        return float(ratio), np.nan, np.nan, np.nan
     error = np.sqrt(r / (r - 1) * squares) / total
     half = t_quantile(r - 1) * error
-    return float(rate), float(error), float(max(rate - half, 0)), float(min(rate + half, 1))
+    return float(ratio), float(error), float(ratio - half), float(ratio + half)
+
+
+def ratio_interval(ended: np.ndarray, reached: np.ndarray) -> tuple[float, float, float, float]:
+    """Rate of what has ended among what has been reached: a ratio of sums within 0 and 1.
+
+    Parameters and returns as of `ratio_of_sums`.
+    """
+    rate, error, low, high = ratio_of_sums(ended, reached)
+    if np.isnan(error):
+        return rate, error, low, high
+    return rate, error, max(low, 0.0), min(high, 1.0)
 
 
 def at_least(bound: float, low: float, high: float) -> str:

@@ -1,7 +1,9 @@
-"""The models of how the mean LEPP size y grows with the number of points.
+"""The models of how the mean LEPP size y depends on the number of points.
 
-x is in thousands of points, as the published regressions have it. Four models are linear in their
-parameters, after y is transformed for one of them; the fifth is not.
+x is in thousands of points, as the published regressions have it. All but one are linear in their
+parameters, after y is transformed for one of them. Some have a limit for x -> infinity, which is
+their first coefficient; some have none. The logistic model's asymptote is supposed, not estimated,
+and a parabola turns round: these two say nothing of a limit.
 """
 
 from collections.abc import Callable
@@ -44,6 +46,9 @@ class LinearModel:
         Takes x, (n,) thousands of points, and returns the (n, k) matrix of the regression.
     transform, inverse : callable
         From y to the scale of the fit, and back.
+    has_limit : bool or None
+        Whether y tends to the first coefficient, or away without bound; None where the model says
+        nothing of it.
     """
 
     name: str
@@ -52,10 +57,17 @@ class LinearModel:
     basis: Function
     transform: Function = identity
     inverse: Function = identity
+    has_limit: bool | None = None
 
 
 LINEAR_MODELS = (
-    LinearModel("linear", "a + b x", ("a", "b"), lambda x: np.column_stack([np.ones_like(x), x])),
+    LinearModel(
+        "linear",
+        "a + b x",
+        ("a", "b"),
+        lambda x: np.column_stack([np.ones_like(x), x]),
+        has_limit=False,
+    ),
     LinearModel(
         "quadratic",
         "a + b x + c x^2",
@@ -75,9 +87,37 @@ LINEAR_MODELS = (
         "c + d log2(x)",
         ("c", "d"),
         lambda x: np.column_stack([np.ones_like(x), np.log2(x)]),
+        has_limit=False,
     ),
 )
-LOGARITHMIC = LINEAR_MODELS[-1]
+LINEAR, QUADRATIC, LOGISTIC, LOGARITHMIC = LINEAR_MODELS
+
+CONSTANT = LinearModel("constant", "c", ("c",), lambda x: np.ones((len(x), 1)), has_limit=True)
+#: Slower than every power of the logarithm, and yet without limit.
+DOUBLY_LOGARITHMIC = LinearModel(
+    "doubly logarithmic",
+    "c + d ln(ln(1000 x))",
+    ("c", "d"),
+    lambda x: np.column_stack([np.ones_like(x), np.log(np.log(1000 * x))]),
+    has_limit=False,
+)
+#: About n^(1/2) of n points in a region lie near its edge.
+EDGE = LinearModel(
+    "edge",
+    "c + b x^(-1/2)",
+    ("c", "b"),
+    lambda x: np.column_stack([np.ones_like(x), x**-0.5]),
+    has_limit=True,
+)
+#: An edge whose depth grows with the logarithm of n.
+THICKENING_EDGE = LinearModel(
+    "thickening edge",
+    "c + (b + d ln(x)) x^(-1/2)",
+    ("c", "b", "d"),
+    lambda x: np.column_stack([np.ones_like(x), x**-0.5, np.log(x) * x**-0.5]),
+    has_limit=True,
+)
+EDGE_MODELS = (EDGE, THICKENING_EDGE)
 
 
 @dataclass(frozen=True)
@@ -87,6 +127,9 @@ class SaturatingModel:
     name: str = "saturating"
     formula: str = "c - a x^(-b)"
     terms: tuple[str, ...] = ("c", "a", "b")
+    has_limit: bool = True
+    #: Of x; its end 0 is the logarithm.
+    powers: tuple[float, float] = (-np.inf, 0.0)
 
     def values(self, x: np.ndarray, c: float, a: float, b: float) -> np.ndarray:
         """Compute the mean LEPP size at x thousand points."""
@@ -99,3 +142,28 @@ class SaturatingModel:
 
 
 SATURATING = SaturatingModel()
+
+
+@dataclass(frozen=True)
+class GrowingModel:
+    """c + a x^b with b >= 0: the logarithm at its end, and all powers that grow faster."""
+
+    name: str = "growing power"
+    formula: str = "c + a x^b"
+    terms: tuple[str, ...] = ("c", "a", "b")
+    has_limit: bool = False
+    powers: tuple[float, float] = (0.0, np.inf)
+
+
+GROWING = GrowingModel()
+
+Model = LinearModel | SaturatingModel | GrowingModel
+#: All that are fitted with weights and held against one another.
+MODELS: tuple[Model, ...] = (
+    CONSTANT,
+    *LINEAR_MODELS,
+    DOUBLY_LOGARITHMIC,
+    GROWING,
+    *EDGE_MODELS,
+    SATURATING,
+)

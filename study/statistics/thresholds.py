@@ -20,3 +20,10 @@ EQUIVALENT_WITHIN = 0.01
 ROUGH_RATE = 0.05
 #: A difference of AIC beyond which the worse model has next to no support.
 CLEAR_AIC = 10.0
+#: A p below which a model of growth is refuted: by its lack of fit, or by sizes it has not seen.
+REFUTED_BELOW = 0.01
+#: A change of the mean with each tenfold number of points that is no more than this is none.
+LEVEL_PER_DECADE = 0.001
+#: Growth like x^lambda with lambda above this shows no limit: a tenfold number of points leaves
+#: more than three quarters of the way to it.
+NEARLY_LOGARITHMIC = -0.1

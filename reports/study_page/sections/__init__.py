@@ -8,6 +8,7 @@ from reports.study_page.sections import (
     agreement,
     data,
     distributions,
+    edge,
     methods,
     provenance,
     regions,
@@ -33,7 +34,7 @@ _MOST_ALARMS = 6
 
 def all_sections(evidence: Evidence) -> list[Section]:
     """Make every section that the run gives reason for."""
-    modules = [summary, agreement, theory, statistics, regressions]
+    modules = [summary, agreement, theory, statistics, edge, regressions]
     if len(evidence.design.distributions) > 1:
         modules.append(distributions)
     if len(evidence.design.methods) > 1:

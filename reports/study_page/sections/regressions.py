@@ -1,6 +1,5 @@
-"""The regressions: how the mean grows with n, and what each model makes of larger n (Table 7)."""
+"""Which model of growth survives, whether the mean has a limit, and the paper's Table 7."""
 
-import numpy as np
 import pandas as pd
 
 from reports.page import style
@@ -8,251 +7,442 @@ from reports.page.blocks import FigureBlock, Prose, Section, Subsection, TableBl
 from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View
-from reports.text.numbers import listed, show, ten_to
-from reports.text.words import LEVEL, PREMISE
-from study.analysis.bound_tests import LOWER_BOUND, UPPER_BOUND
+from reports.study_page.tables import TABLE_4
+from reports.text.numbers import count, listed, show, ten_to
+from reports.text.words import LEVEL
 from study.analysis.group_summaries import GROUPS
+from study.analysis.limits import EDGE_LIMITS, FEW, LIMIT_VERDICTS, LIMITS, REASONS
+from study.analysis.model_scores import (
+    MODEL_SCORES,
+    PREDICTIONS,
+    PROJECTIONS,
+    PUBLISHED_UP_TO,
+    REFUTED,
+    SURVIVES,
+)
+from study.analysis.part_means import PART_MEANS
+from study.analysis.parts import INTERIOR, WHOLE
 from study.analysis.regressions import (
-    BEYOND,
+    ALL_SIZES,
     COEFFICIENTS,
     CURVES,
-    INSIDE,
+    DRAWN,
     LEAST_SQUARES,
-    LIMITS,
-    MODELS,
-    PROJECTIONS,
+    PREDICTION,
     REGRESSIONS,
+    WEIGHTED,
 )
-from study.statistics.models import LINEAR_MODELS
-from study.statistics.thresholds import SIGNIFICANCE
-from study.statistics.verdicts import UNDECIDED
+from study.analysis.variance_analysis import ANOVA, WELCH
+from study.statistics.limit_verdict import GROWTH, LIMIT, NONE_FITS, ROUGH
+from study.statistics.limit_verdict import LEVEL as IS_LEVEL
+from study.statistics.thresholds import LEVEL_PER_DECADE, REFUTED_BELOW, SIGNIFICANCE
+from study.statistics.verdicts import NO, YES
 
 
 def section(evidence: Evidence) -> Section:
-    """Fits inside the data, projections beyond them."""
+    """Predictions of sizes not seen, the verdict, projections, Table 7."""
     return Section(
         "regressions",
-        "The regressions",
-        "How does the mean grow with the number of points?",
+        "Which model survives",
+        "Does the mean have a limit?",
+        (_predicted(evidence), _judged(evidence), _projected(evidence), _table_7(evidence)),
+    )
+
+
+def _predicted(evidence: Evidence) -> Subsection:
+    return Subsection(
+        "fits",
+        "Sizes not seen",
         (
-            Subsection(
-                "fits",
-                "Inside the data",
-                (
-                    Prose(per_view(evidence.views, lambda view: _fits(evidence, view))),
-                    _figure_6(evidence),
-                    TableBlock(
-                        REGRESSIONS,
-                        "Table 7. The models",
-                        columns=(
-                            "model",
-                            "fitting",
-                            "formula",
-                            "adj_r2",
-                            "log10_p",
-                            "lack_of_fit_p",
-                            "aic",
-                            "bic",
-                            "left_out_rmse",
-                        ),
-                    ),
-                    TableBlock(
-                        COEFFICIENTS, "Coefficients of the models, with intervals", folded=True
-                    ),
+            Prose(per_view(evidence.views, lambda view: _scores(evidence, view))),
+            _figure(
+                evidence,
+                "figure-7",
+                "Figure 7. The models beyond the sizes that they are fitted to",
+                PREDICTION,
+            ),
+            TableBlock(
+                MODEL_SCORES,
+                "How the models fit and predict",
+                columns=(
+                    "part",
+                    "model",
+                    "has_limit",
+                    "prediction_log10_p",
+                    "worst",
+                    "fit_p",
+                    "delta_aic",
+                    "akaike_weight",
+                    "standing",
                 ),
             ),
-            Subsection(
-                "projections",
-                "Beyond the data",
-                (
-                    Prose(per_view(evidence.views, lambda view: _beyond(evidence, view))),
-                    _figure_7(evidence),
-                    TableBlock(LIMITS, "What each model says of an infinite mesh", folded=True),
+            TableBlock(PREDICTIONS, "Each size predicted by each model", folded=True),
+        ),
+    )
+
+
+def _judged(evidence: Evidence) -> Subsection:
+    return Subsection(
+        "limit",
+        "Is there a limit?",
+        (
+            Prose(per_view(evidence.views, lambda view: _limit(evidence, view))),
+            TableBlock(
+                LIMIT_VERDICTS,
+                "The verdict for every distribution",
+                columns=(
+                    "distribution",
+                    "part",
+                    "has_limit",
+                    "reason",
+                    "limit",
+                    "limit_low",
+                    "limit_high",
+                    "power_low",
+                    "power_high",
                 ),
+                follows=("method",),
+            ),
+            TableBlock(LIMITS, "The limit of each model that has one", folded=True),
+            TableBlock(
+                EDGE_LIMITS,
+                "The edge model's limit and the interior",
+                follows=("method",),
+                folded=True,
             ),
         ),
     )
 
 
-_LIMIT_WORDS = {UNDECIDED: "stays undecided"}
+def _projected(evidence: Evidence) -> Subsection:
+    return Subsection(
+        "projections",
+        "Beyond the data",
+        (
+            Prose(per_view(evidence.views, lambda view: _beyond(evidence, view))),
+            TableBlock(PROJECTIONS, "What the models that survive project", folded=True),
+        ),
+    )
 
 
-def best(evidence: Evidence, view: View, column: str = "aic") -> pd.Series | None:
-    """Return the least squares fit with the lowest AIC (or another column)."""
-    rows = evidence.rows(REGRESSIONS, view, fitting=LEAST_SQUARES)
-    known = rows.frame.dropna(subset=[column])
-    return None if known.empty else known.loc[known[column].idxmin()]
+def _table_7(evidence: Evidence) -> Subsection:
+    return Subsection(
+        "table-7",
+        "The paper's regressions",
+        (
+            Prose(per_view(evidence.views, lambda view: _of_paper(evidence, view))),
+            _figure(evidence, "figure-6", "Figure 6. The models fitted to all sizes", ALL_SIZES),
+            TableBlock(
+                REGRESSIONS,
+                "Table 7. The paper's four models, by least squares as in the paper",
+                columns=("model", "formula", "adj_r2", "log10_p", "lack_of_fit_p"),
+                where={"fitting": LEAST_SQUARES},
+            ),
+            TableBlock(
+                REGRESSIONS,
+                "All models, weighted",
+                columns=(
+                    "part",
+                    "model",
+                    "formula",
+                    "adj_r2",
+                    "lack_of_fit_p",
+                    "aic",
+                    "bic",
+                    "left_out_rmse",
+                ),
+                where={"fitting": WEIGHTED},
+                folded=True,
+            ),
+            TableBlock(COEFFICIENTS, "Coefficients of the models, with intervals", folded=True),
+        ),
+    )
 
 
-def _fits(evidence: Evidence, view: View) -> list[str] | None:
-    rows = evidence.rows(REGRESSIONS, view, fitting=LEAST_SQUARES)
+def trend_sentence(evidence: Evidence, view: View) -> str | None:
+    """Say how the mean depends on the number of points, and whether it has a limit."""
+    test = evidence.one(ANOVA, view, test=WELCH)
+    groups = evidence.rows(TABLE_4, view)
+    if test is None or len(groups) < 2:
+        return None
+    first, last = groups.first, groups.last
+    welch = f"Welch's analysis of variance, p\u00a0=\u00a0{show(test['log10_p'], 'log10p')}"
+    if test["p"] >= SIGNIFICANCE:
+        return (
+            f"The mean does not depend on the number of points, as far as this run can tell "
+            f"({welch})."
+        )
+    direction = "grows" if last["mean_lepp"] > first["mean_lepp"] else "falls"
+    sentence = (
+        f"The mean {direction} with the number of points, from "
+        f"{show(first['mean_lepp'], 'fixed4')} at {first['n_points']:,} to "
+        f"{show(last['mean_lepp'], 'fixed4')} at {last['n_points']:,} ({welch})."
+    )
+    return " ".join([sentence, *verdict_sentences(evidence, view)])
+
+
+def verdict_sentences(evidence: Evidence, view: View) -> list[str]:
+    """Say whether the mean has a limit, in the whole mesh and, if it says more, in the interior."""
+    verdicts = {part: evidence.one(LIMIT_VERDICTS, view, part=part) for part in (WHOLE, INTERIOR)}
+    sentences = []
+    whole, interior = verdicts[WHOLE], verdicts[INTERIOR]
+    if whole is not None and whole["reason"] != FEW:
+        sentences.append(f"{_verdict(whole, evidence, view, 'it')}.")
+    if interior is not None and interior["reason"] != FEW:
+        sentences.append(f"{_verdict(interior, evidence, view, 'the mean of the interior')}.")
+    return sentences
+
+
+def _verdict(row: pd.Series, evidence: Evidence, view: View, it: str) -> str:
+    """Say one verdict, without the full stop."""
+    opening = f"{it[0].upper()}{it[1:]}"
+    reason = row["reason"]
+    if reason == REASONS[IS_LEVEL]:
+        return (
+            f"{opening} is level: it changes by no more than {show(LEVEL_PER_DECADE, 'g1')} with "
+            f"each tenfold number of points, and is {show(row['limit'], 'fixed4')} ({LEVEL} from "
+            f"{show(row['limit_low'], 'fixed4')} to {show(row['limit_high'], 'fixed4')})"
+        )
+    if reason == REASONS[LIMIT]:
+        return (
+            f"{opening} has a limit: only models with one survive, and put it between "
+            f"{show(row['limit_low'], 'fixed4')} and {show(row['limit_high'], 'fixed4')} ({LEVEL})"
+        )
+    if reason == REASONS[GROWTH]:
+        grows = "grows" if row["per_decade"] > 0 else "falls"
+        return (
+            f"{opening} has no limit in sight: it {grows} like a logarithm of the number of points "
+            "or faster"
+        )
+    if reason == REASONS[ROUGH]:
+        per = f"{show(row['per_decade_low'], 'fixed4')} to {show(row['per_decade_high'], 'fixed4')}"
+        return (
+            f"Whether {it} has a limit stays undecided: no change is seen, but with each tenfold "
+            f"number of points it may be from {per}"
+        )
+    if reason == REASONS[NONE_FITS]:
+        return f"Whether {it} has a limit stays undecided: no model follows the means"
+    scores = evidence.rows(MODEL_SCORES, view, part=row["part"], standing=SURVIVES).frame
+    with_limit, without = (
+        scores["model"][scores["has_limit"] == word].tolist() for word in (YES, NO)
+    )
+    if not without:
+        return (
+            f"Whether {it} has a limit stays undecided: the {_models(with_limit)}, but it may "
+            "follow a power that no one can tell from a logarithm"
+        )
+    if not with_limit:
+        return (
+            f"Whether {it} has a limit stays undecided: the {_models(without)}, but a power with "
+            "a limit is not excluded"
+        )
+    return (
+        f"Whether {it} has a limit stays undecided: with one, the {_models(with_limit)}; without, "
+        f"the {_models(without)}"
+    )
+
+
+def _models(names: list[str]) -> str:
+    return f"{listed(names)} {'model survives' if len(names) == 1 else 'models survive'}"
+
+
+def _scores(evidence: Evidence, view: View) -> list[str] | None:
+    paragraphs: list[str] = []
+    for part, of in ((WHOLE, "the whole mesh"), (INTERIOR, "the interior")):
+        rows = evidence.rows(MODEL_SCORES, view, part=part)
+        if rows.empty:
+            continue
+        refuted = rows["model"][rows["standing"] == REFUTED].tolist()
+        left = rows["model"][rows["standing"] == SURVIVES].tolist()
+        sentences = [] if paragraphs else [_what_is_predicted(rows.first)]
+        sentences.append(f"For {of}, {_which(left)} and {_refuted(refuted)}.")
+        worst = _worst(evidence, view, part)
+        paragraphs.append(" ".join([*sentences, worst] if worst else sentences))
+    return paragraphs or None
+
+
+def _which(left: list[str]) -> str:
+    return f"the {_models(left)}" if left else "no model survives"
+
+
+def _refuted(names: list[str]) -> str:
+    return (
+        f"the {listed(names)} {'one is' if len(names) == 1 else 'ones are'} refuted"
+        if names
+        else "none is refuted"
+    )
+
+
+def _what_is_predicted(row: pd.Series) -> str:
+    up_to = row["fitted_up_to"]
+    sizes = count(row["predicted"], "larger size")
+    if up_to == PUBLISHED_UP_TO:
+        return (
+            f"Each model is fitted up to {up_to:,} points, the paper's range, and has to predict "
+            f"the {sizes} of this run. A p below {REFUTED_BELOW} there, or for the fit to all "
+            "sizes, refutes it."
+        )
+    return (
+        f"This run has too few sizes on one side of {PUBLISHED_UP_TO:,} points, where the paper's "
+        f"range ends, so that each model is fitted up to {up_to:,} points and has to predict the "
+        f"{sizes} left out. A p below {REFUTED_BELOW} there, or for the fit to all sizes, refutes "
+        "it."
+    )
+
+
+def _worst(evidence: Evidence, view: View, part: str) -> str | None:
+    """Say how far off the model that the paper chose is, at the largest size."""
+    rows = evidence.rows(PREDICTIONS, view, part=part, model="logarithmic")
     if rows.empty:
         return None
-    by = {name: best(evidence, view, name) for name in ("aic", "bic", "left_out_rmse")}
-    names = {name: row["model"] for name, row in by.items() if row is not None}
-    four = rows.frame[rows["model"].isin([model.name for model in LINEAR_MODELS])]
-    sentences = []
-    if not four.empty:
-        top = four.loc[four["adj_r2"].idxmax()]
-        sentences.append(
-            f"Of the paper's four models the {top['model']} one fits the {view.distribution_word} "
-            f"points best, with an adjusted R² of {show(top['adj_r2'], 'fixed3')}."
-        )
-    winners = set(names.values())
-    labels = {"aic": "AIC", "bic": "BIC", "left_out_rmse": "the error of left-out groups"}
-    if len(winners) == 1:
-        sentences.append(
-            f"AIC, BIC and the error of left-out groups all choose the {winners.pop()} model."
-        )
-    elif winners:
-        sentences.append(
-            "The criteria do not agree: "
-            + listed([f"{labels[name]} chooses the {model} model" for name, model in names.items()])
-            + "."
-        )
-    lacking = rows["model"][rows["lack_of_fit_p"] < SIGNIFICANCE].tolist()
-    if lacking:
-        sentences.append(
-            f"The {listed(lacking)} {'model does' if len(lacking) == 1 else 'models do'} not "
-            f"follow the groups' means: lack of fit is significant at {SIGNIFICANCE}."
-        )
-    return [" ".join(sentences)]
-
-
-def _figure_6(evidence: Evidence) -> FigureBlock:
-    def draw(view: View) -> Spec | None:
-        groups = evidence.rows(GROUPS, view)
-        curves = _curves(evidence, view, INSIDE)
-        if not curves:
-            return None
-        return style.plot(
-            style.scatter(
-                x=groups.column("n_points"),
-                y=groups.column("mean_lepp"),
-                mode="markers",
-                name="groups",
-                marker={"color": style.INK, "size": 7},
-                error_y={
-                    "type": "data",
-                    "symmetric": False,
-                    "thickness": 1,
-                    "width": 0,
-                    "color": style.MUTED,
-                    "array": groups["mean_high"] - groups["mean_lepp"],
-                    "arrayminus": groups["mean_lepp"] - groups["mean_low"],
-                },
-                hovertemplate="%{x:,} points: %{y:.4f}<extra></extra>",
-            ),
-            *curves,
-            xaxis=style.axis("Number of points"),
-            yaxis=style.axis("Mean LEPP size"),
-            height=440,
-        )
-
-    def say(view: View) -> str | None:
-        curves = evidence.rows(CURVES, view, view=INSIDE)
-        if curves.empty:
-            return None
-        wide = curves.frame.pivot_table(index="n_points", columns="model", values="prediction")
-        gap = float((wide.max(axis=1) - wide.min(axis=1)).max())
-        return f"Inside the data the models lie within {show(gap, 'fixed4')} of one another."
-
-    return FigureBlock(
-        id="figure-6",
-        title="Figure 6. The models inside the data",
-        specs=per_view(evidence.views, draw),
-        alternatives=per_view(evidence.views, say),
-        reading=f"Dots are the groups' means with {LEVEL} intervals, curves least squares fits.",
-        data=(TableBlock(CURVES, "Data of Figures 6 and 7: points of the curves"),),
+    row = rows.last
+    off = row["difference"]
+    return (
+        f"At {row['n_points']:,} points the logarithmic model, which the paper prefers, predicts "
+        f"{show(row['prediction'], 'fixed4')}; measured is {show(row['mean_lepp'], 'fixed4')}, "
+        f"{show(abs(off), 'fixed1')} standard errors {'below' if off < 0 else 'above'}."
     )
 
 
-def _figure_7(evidence: Evidence) -> FigureBlock:
+def _limit(evidence: Evidence, view: View) -> list[str] | None:
+    sentences = verdict_sentences(evidence, view)
+    if not sentences:
+        row = evidence.one(LIMIT_VERDICTS, view, part=WHOLE)
+        return None if row is None else ["Whether the mean has a limit needs more sizes."]
+    opening = sentences[0]
+    if opening.startswith("It "):
+        opening = f"The mean of the whole mesh {opening.removeprefix('It ')}"
+    opening = opening.replace("Whether it has", "Whether the mean of the whole mesh has")
+    paragraph = " ".join([opening, *sentences[1:]])
+    check = _edge_check(evidence, view)
+    return [paragraph, check] if check else [paragraph]
+
+
+def _edge_check(evidence: Evidence, view: View) -> str | None:
+    row = evidence.one(EDGE_LIMITS, view)
+    if row is None:
+        return None
+    agrees = "agree" if row["agrees"] == YES else "do not agree"
+    return (
+        "With an edge that thickens as the logarithm of the number of points, the whole mesh has "
+        f"the limit {show(row['limit'], 'fixed4')}; the interior of the larger meshes has the mean "
+        f"{show(row['interior'], 'fixed4')}. The two {agrees}: they differ by "
+        f"{show(abs(row['difference']), 'fixed4')}, {show(abs(row['t']), 'fixed1')} standard "
+        f"errors (p\u00a0=\u00a0{show(row['p'], 'p')})."
+    )
+
+
+def _beyond(evidence: Evidence, view: View) -> list[str] | None:
+    rows = evidence.rows(PROJECTIONS, view, part=WHOLE)
+    if rows.empty:
+        return None
+    far = rows.select(n_points=rows["n_points"].max())
+    power = ten_to(len(str(far.first["n_points"])) - 1)
+    words = [
+        f"{show(row.prediction, 'fixed4')} ({row.model}, {LEVEL} from {show(row.low, 'fixed4')} to "
+        f"{show(row.high, 'fixed4')})"
+        for row in far.frame.itertuples()
+    ]
+    return [
+        f"What follows is extrapolation, by the models that survive for the whole mesh; the "
+        f"intervals hold only if the model does. At {power} points they put the mean at "
+        f"{listed(words)}."
+    ]
+
+
+def _of_paper(evidence: Evidence, view: View) -> list[str] | None:
+    four = evidence.rows(REGRESSIONS, view, fitting=LEAST_SQUARES).frame
+    if four.empty:
+        return None
+    top = four.loc[four["adj_r2"].idxmax()]
+    return [
+        f"Of the paper's four models the {top['model']} one fits the {view.distribution_word} "
+        f"points best by least squares, with an adjusted R² of {show(top['adj_r2'], 'fixed3')}. "
+        "Least squares takes all variances to be equal, which they are not: it is here for the "
+        "comparison with the paper, and all else on this page goes by weighted fits."
+    ]
+
+
+def _figure(evidence: Evidence, name: str, title: str, which: str) -> FigureBlock:
     def draw(view: View) -> Spec | None:
-        curves = _curves(evidence, view, BEYOND)
-        if not curves:
-            return None
-        groups = evidence.rows(GROUPS, view)
-        return style.plot(
-            *curves,
-            style.scatter(
-                x=groups.column("n_points"),
-                y=groups.column("mean_lepp"),
-                mode="markers",
-                name="groups",
-                marker={"color": style.INK, "size": 5},
-                hovertemplate="%{x:,} points: %{y:.4f}<extra></extra>",
-            ),
-            xaxis=style.powers("Number of points"),
-            yaxis=style.axis("Mean LEPP size", range=[LOWER_BOUND - 0.2, UPPER_BOUND + 0.2]),
-            levels=(
-                style.Level(UPPER_BOUND, f"upper bound {UPPER_BOUND}"),
-                style.Level(LOWER_BOUND, f"lower bound {LOWER_BOUND}", above=False),
-            ),
-            height=440,
-        )
+        panels = [_panel(evidence, view, part, which) for part in (WHOLE, INTERIOR)]
+        drawn = [panel for panel in panels if panel]
+        return style.panels(drawn, height=380 * len(drawn)) if drawn else None
 
     def say(view: View) -> str | None:
-        limits = evidence.rows(LIMITS, view, fitting=LEAST_SQUARES)
-        far = evidence.rows(PROJECTIONS, view, fitting=LEAST_SQUARES)
-        if limits.empty or far.empty:
+        rows = evidence.rows(CURVES, view, part=WHOLE, view=which)
+        if rows.empty:
             return None
-        at_most = int(far["n_points"].max())
-        there = far.select(n_points=at_most).frame.set_index("model")["prediction"]
-        words = [
-            f"the {row.model} one {_LIMIT_WORDS.get(row.limit, row.limit)} "
-            f"({show(there[row.model], 'g4')} there"
-            + (f", {show(row.value, 'fixed4')} in the end)" if row.value == row.value else ")")
-            for row in limits.frame.itertuples()
-        ]
+        groups = evidence.rows(GROUPS, view)
+        n = groups["n_points"].max()
+        last = rows.select(n_points=n).frame.set_index("model")
         return (
-            f"Far beyond the data, drawn up to {ten_to(int(np.log10(at_most)))} "
-            f"points: {listed(words)}."
+            f"At {n:,} points the curves for the whole mesh are from "
+            f"{show(last['prediction'].min(), 'fixed4')} ({last['prediction'].idxmin()}) to "
+            f"{show(last['prediction'].max(), 'fixed4')} ({last['prediction'].idxmax()}), and the "
+            f"measured mean is {show(groups.last['mean_lepp'], 'fixed4')}."
         )
 
+    fitted = {
+        PREDICTION: "curves are weighted fits to the smaller sizes only, and go on beyond them",
+        ALL_SIZES: "curves are weighted fits to all sizes",
+    }[which]
     return FigureBlock(
-        id="figure-7",
-        title="Figure 7. The models far beyond the data",
+        id=name,
+        title=title,
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
-        reading=f"A curve beyond the dotted bounds is at odds with Theorem 2 if {PREMISE}.",
-        data=(TableBlock(PROJECTIONS, "What each model predicts, with intervals"),),
+        reading=f"Dots are the means with {LEVEL} intervals; {fitted}.",
+        data=(TableBlock(CURVES, f"Data: points of the curves ({which})", where={"view": which}),),
     )
 
 
-def _curves(evidence: Evidence, view: View, part: str) -> list[Spec]:
-    curves = []
-    for series, model in enumerate(one.name for one in MODELS):
-        rows = evidence.rows(CURVES, view, model=model, view=part)
+def _panel(evidence: Evidence, view: View, part: str, which: str) -> style.Panel | None:
+    means = evidence.rows(PART_MEANS, view, part=part)
+    traces = []
+    for series, model in enumerate(one.name for one in DRAWN):
+        rows = evidence.rows(CURVES, view, part=part, model=model, view=which)
         if not rows.empty:
-            curves.append(
+            traces.append(
                 style.scatter(
                     x=rows.column("n_points"),
                     y=rows.column("prediction"),
                     mode="lines",
                     name=model,
+                    legendgroup=model,
+                    showlegend=part == WHOLE,
                     line=style.line(series),
                     hovertemplate="%{x:,} points: %{y:.4f}<extra>" + model + "</extra>",
                 )
             )
-    return curves
-
-
-def _beyond(evidence: Evidence, view: View) -> list[str] | None:
-    chosen = best(evidence, view)
-    rows = evidence.rows(PROJECTIONS, view, fitting=LEAST_SQUARES)
-    if chosen is None or rows.empty:
+    if means.empty or not traces:
         return None
-    far = rows.select(n_points=rows["n_points"].max())
-    power = ten_to(int(np.log10(far.first["n_points"])))
-    words = [f"{show(row.prediction, 'g4')} ({row.model})" for row in far.frame.itertuples()]
-    of_chosen = rows.select(model=chosen["model"])
-    steps = [
-        f"{show(row.prediction, 'fixed4')} at {ten_to(int(np.log10(row.n_points)))}"
-        for row in of_chosen.frame.itertuples()
-    ]
-    return [
-        f"At {power} points the models predict a mean of {listed(words)}. "
-        f"The {chosen['model']} model, which has the lowest AIC, predicts "
-        f"{listed(steps)} points."
-    ]
+    low, high = float(means["mean_lepp"].min()), float(means["mean_lepp"].max())
+    margin = max(high - low, 0.002)
+    traces.append(
+        style.scatter(
+            x=means.column("n_points"),
+            y=means.column("mean_lepp"),
+            mode="markers",
+            name="means",
+            legendgroup="means",
+            showlegend=part == WHOLE,
+            marker={"color": style.INK, "size": 6},
+            error_y={
+                "type": "data",
+                "symmetric": False,
+                "thickness": 1,
+                "width": 0,
+                "color": style.MUTED,
+                "array": means["high"] - means["mean_lepp"],
+                "arrayminus": means["mean_lepp"] - means["low"],
+            },
+            hovertemplate="%{x:,} points: %{y:.4f}<extra></extra>",
+        )
+    )
+    return style.Panel(
+        traces,
+        style.powers("Number of points"),
+        style.axis("Mean LEPP size", range=[low - margin, high + margin]),
+        title=f"The {part}{' mesh' if part == WHOLE else ''}",
+    )

@@ -16,7 +16,7 @@ from reports.page.blocks import (
 from reports.page.evidence import Evidence
 from reports.page.views import View
 from reports.study_page.explorer import EXPLORER_POINTS, EXPLORER_TRIANGLES, N_POINTS
-from reports.study_page.sections.regressions import best
+from reports.study_page.sections.regressions import trend_sentence
 from reports.study_page.sections.theory import one_chance
 from reports.study_page.tables import TABLE_4
 from reports.text.numbers import count, large, listed, show
@@ -25,11 +25,10 @@ from study.analysis.group_summaries import GROUPS, OVERVIEW
 from study.analysis.table import Rows
 from study.analysis.terminal_regions import REGIONS
 from study.analysis.theorems import MEAN, SD, THEOREM_1, THEOREM_2
-from study.analysis.variance_analysis import ANOVA, WELCH
 from study.paper.published import REFERENCE_METHOD
 from study.paper.reproduction import JUDGED, SUMMARY, independent_column
 from study.paper.statements import NOT_TESTED, STATEMENTS
-from study.statistics.thresholds import CLOSE_UP_TO, SIGNIFICANCE
+from study.statistics.thresholds import CLOSE_UP_TO
 from study.statistics.verdicts import NO, NOT_REJECTED, NOT_SHOWN, UNDECIDED, YES, all_of
 
 
@@ -136,7 +135,7 @@ def _off(relative: float) -> str:
 
 
 def _sentences(evidence: Evidence, view: View) -> list[str] | None:
-    parts = (_spread(evidence, view), _growth(evidence, view), _theory(evidence, view))
+    parts = (_spread(evidence, view), trend_sentence(evidence, view), _theory(evidence, view))
     sentences = [part for part in parts if part]
     return sentences or None
 
@@ -154,30 +153,6 @@ def _spread(evidence: Evidence, view: View) -> str | None:
         "repeats it until the triangle is gone. In "
         f"{count(overview['triangulations'], 'triangulation')} of all sizes, with "
         f"{large(overview['triangles'])} triangles, no path was longer than {largest}."
-    )
-
-
-def _growth(evidence: Evidence, view: View) -> str | None:
-    test = evidence.one(ANOVA, view, test=WELCH)
-    groups = evidence.rows(TABLE_4, view)
-    if test is None or len(groups) < 2:
-        return None
-    first, last = groups.first, groups.last
-    if test["p"] >= SIGNIFICANCE:
-        return (
-            "The mean does not depend on the number of points, as far as this run can tell "
-            f"(Welch's analysis of variance, p\u00a0=\u00a0{show(test['log10_p'], 'log10p')})."
-        )
-    direction = "grows" if last["mean_lepp"] > first["mean_lepp"] else "falls"
-    sentence = (
-        f"The mean {direction} with the number of points, from "
-        f"{show(first['mean_lepp'], 'fixed4')} at {first['n_points']:,} to "
-        f"{show(last['mean_lepp'], 'fixed4')} at {last['n_points']:,} "
-        f"(Welch's analysis of variance, p\u00a0=\u00a0{show(test['log10_p'], 'log10p')})"
-    )
-    chosen = best(evidence, view)
-    return sentence + (
-        f"; the {chosen['model']} model describes it best by AIC." if chosen is not None else "."
     )
 
 

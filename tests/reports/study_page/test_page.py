@@ -90,7 +90,7 @@ def test_sections_come_in_the_order_of_the_questions(parts: list[Section]) -> No
     compared = ["distributions"] if len(DESIGN.distributions) > 1 else []
     compared += ["methods"] if len(DESIGN.methods) > 1 else []
     assert [section.id for section in parts] == [
-        "found", "agreement", "theory", "statistics", "regressions", *compared, "regions",
+        "found", "agreement", "theory", "statistics", "edge", "regressions", *compared, "regions",
         "data", "made",
     ]  # fmt: skip
 

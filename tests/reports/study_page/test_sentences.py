@@ -9,13 +9,12 @@ from tiny_runs import DESIGN
 from reports.page.evidence import Evidence
 from reports.page.views import View
 from reports.study_page.gather import gather
-from reports.study_page.sections import agreement, regions, regressions, statistics, summary, theory
+from reports.study_page.sections import agreement, regions, statistics, summary, theory
 from reports.study_page.sections.randomness import randomness
 from reports.text.numbers import show
 from study.analysis.bound_tests import BOUNDS
 from study.analysis.group_summaries import GROUPS
 from study.analysis.path_lengths import LAW, TERMINATION
-from study.analysis.regressions import REGRESSIONS
 from study.analysis.terminal_regions import REGION_SIZES
 
 VIEW = View("incremental", "uniform")
@@ -154,17 +153,6 @@ def test_largest_regions_are_those_of_the_size_and_of_all(evidence: Evidence) ->
     within = counts["share"].cumsum()
     ninety = counts["region_size"][within >= 0.9].min()
     assert f"nine in ten have at most {ninety};" in said
-
-
-def test_the_best_model_has_the_lowest_aic(evidence: Evidence) -> None:
-    rows = evidence.rows(REGRESSIONS, VIEW, fitting="least squares").frame.dropna(subset="aic")
-    lowest = rows.loc[rows["aic"].idxmin(), "model"]
-    assert f"the {lowest} model describes it best by AIC" in prose(
-        summary.section(altered(evidence, "anova", p=1e-9)), block_of=1
-    )
-    assert f"The {lowest} model, which has the lowest AIC" in prose(
-        regressions.section(evidence), part_of=1
-    )
 
 
 def test_t_tests_are_summed_up_by_the_largest_p(evidence: Evidence) -> None:

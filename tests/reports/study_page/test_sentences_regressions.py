@@ -1,174 +1,233 @@
-"""What the report says of the regressions, against least squares done by hand."""
+"""What the report says of models and limits, on runs whose truth is known."""
+
+import re
 
 import numpy as np
 import pytest
-from made_runs import level, page, page_text, run
-from scipy import optimize, special
+from grown_runs import CURVES, grown
+from made_runs import DESIGN, drawn, page, page_text, run
+from statsmodels.regression.linear_model import OLS
 
-from reports.text.numbers import significant
+from study.analysis import limits, model_scores
+from study.analysis.limits import EDGE_LIMITS
 
-BASES = {
-    "linear": lambda x: np.column_stack([np.ones_like(x), x]),
-    "quadratic": lambda x: np.column_stack([np.ones_like(x), x, x * x]),
-    "logistic": lambda x: np.column_stack([np.ones_like(x), x]),
-    "logarithmic": lambda x: np.column_stack([np.ones_like(x), np.log2(x)]),
+
+def whole(text, table, **where):
+    rows = text.evidence.rows(
+        _declared(text, table), method="incremental", distribution="uniform", part="whole"
+    )
+    return rows.select(**where).frame
+
+
+def _declared(text, name):
+    found = [
+        one
+        for module in (limits, model_scores)
+        for one in vars(module).values()
+        if getattr(one, "name", "") == name
+    ]
+    return found[0]
+
+
+# The verdict, in the opening and in its own paragraph
+
+SENTENCES = {
+    ("saturating", "level"): (
+        "The mean of the whole mesh has a limit: only models with one survive, and put it between",
+        "The mean of the interior is level: it changes by no more than 0.001 with each tenfold",
+    ),
+    ("logarithmic", "saturating"): (
+        "The mean of the whole mesh has no limit in sight: it grows like a logarithm of the number "
+        "of points or faster.",
+        "The mean of the interior has a limit: only models with one survive, and put it between",
+    ),
+    ("falling", "logarithmic"): (
+        "The mean of the whole mesh has no limit in sight: it falls like a logarithm of the number "
+        "of points or faster.",
+        "The mean of the interior has no limit in sight: it grows like a logarithm",
+    ),
+    ("wave", "wave"): (
+        "Whether the mean of the whole mesh has a limit stays undecided: no model follows the "
+        "means.",
+        "Whether the mean of the interior has a limit stays undecided: no model follows the means.",
+    ),
 }
 
 
-def observations(name, method="incremental"):
-    results = run(name)["results"]
-    results = results[results["method"] == method]
-    return results["n_points"].to_numpy() / 1000, results["mean_lepp"].to_numpy()
+@pytest.mark.parametrize("curves", SENTENCES, ids="-".join)
+def test_the_verdict_is_said(curves):
+    said = grown(*curves).prose("limit")
+    for sentence in SENTENCES[curves]:
+        assert sentence in said
+    opening = grown(*curves).prose("key-figures")
+    for sentence in SENTENCES[curves]:
+        short = sentence.replace("The mean of the whole mesh has", "It has")
+        short = short.replace("Whether the mean of the whole mesh has", "Whether it has")
+        assert short in opening
 
 
-def fit(model, x, y):
-    """A function that predicts, by ordinary least squares."""
-    if model == "saturating":
-
-        def curve(x, c, a, b):
-            return c - a * x**-b
-
-        start = [y.max(), y.max() - y.min(), 0.5]
-        found, _ = optimize.curve_fit(curve, x, y, p0=start, maxfev=100_000)
-        return lambda at: curve(at, *found)
-    z = np.log(y / (4 - y)) if model == "logistic" else y
-    found = np.linalg.lstsq(BASES[model](x), z)[0]
-    if model == "logistic":
-        return lambda at: 4 * special.expit(BASES[model](at) @ found)
-    return lambda at: BASES[model](at) @ found
+def test_a_limit_is_said_with_its_ends():
+    text = grown("saturating", "level")
+    row = whole(text, "limit_verdicts").iloc[0]
+    assert row["has_limit"] == "yes"
+    assert row["limit_low"] < 3.09 < row["limit_high"]
+    ends = f"between {row['limit_low']:.4f} and {row['limit_high']:.4f} (95 %)"
+    assert ends in text.prose("limit")
 
 
-def aic(model, x, y):
-    parameters = {"quadratic": 4, "saturating": 4}.get(model, 3)
-    squares = ((y - fit(model, x, y)(x)) ** 2).sum()
-    return len(y) * (np.log(2 * np.pi * squares / len(y)) + 1) + 2 * parameters
+def test_models_on_both_sides_are_named():
+    text = grown("slow", "level", spread=2.5)
+    row = whole(text, "limit_verdicts").iloc[0]
+    assert row["reason"] == "models with and without a limit survive"
+    said = text.prose("limit")
+    match = re.search(
+        r"stays undecided: with one, the (.*?) models? survives?; without, the (.*?) models?", said
+    )
+    scores = whole(text, "model_scores", standing="survives")
+    for group, verdict in ((match[1], "yes"), (match[2], "no")):
+        names = scores["model"][scores["has_limit"] == verdict].tolist()
+        assert re.split(", | and ", group) == names
 
 
-def left_out(model, x, y):
-    errors = []
-    for size in np.unique(x):
-        others = x != size
-        at = np.array([size])
-        errors.append(fit(model, x[others], y[others])(at)[0] - y[~others].mean())
-    return np.sqrt(np.mean(np.square(errors)))
+def test_a_change_that_counts_may_be_hidden():
+    text = grown("level", "level", spread=3.0)
+    row = whole(text, "limit_verdicts").iloc[0]
+    said = text.prose("limit")
+    low, high = (f"{row[f'per_decade_{end}']:.4f}".replace("-", "−") for end in ("low", "high"))
+    assert (
+        f"no change is seen, but with each tenfold number of points it may be from {low} to "
+        in said
+    )
+    assert high in said
 
 
-def adjusted_r2(model, x, y):
-    z = np.log(y / (4 - y)) if model == "logistic" else y
-    basis = BASES[model](x)
-    residual = z - basis @ np.linalg.lstsq(basis, z)[0]
-    n, k = len(z), basis.shape[1]
-    return 1 - residual @ residual / (n - k) / (((z - z.mean()) ** 2).sum() / (n - 1))
+def test_few_sizes():
+    assert page("growing").prose("limit") == "Whether the mean has a limit needs more sizes."
+    assert "has a limit" not in page("growing").prose("key-figures")
+
+
+# Scores
+
+
+def test_models_are_refuted_by_what_they_have_not_seen():
+    text = grown("saturating", "level")
+    said = text.prose("fits")
+    assert said.startswith(
+        "Each model is fitted up to 200,000 points, the paper's range, and has to predict the 3 "
+        "larger sizes of this run. A p below 0.01 there"
+    )
+    scores = whole(text, "model_scores").set_index("model")
+    refuted = scores.index[scores["standing"] == "refuted"].tolist()
+    assert "logarithmic" in refuted
+    assert "saturating" not in refuted
+    assert f"the {', '.join(refuted[:-1])} and {refuted[-1]} ones are refuted." in said
+    predicted = whole(text, "predictions", model="logarithmic").iloc[-1]
+    assert predicted["difference"] < -3
+    assert (
+        "At 2,000,000 points the logarithmic model, which the paper prefers, predicts "
+        f"{predicted['prediction']:.4f}; measured is {predicted['mean_lepp']:.4f}, "
+        f"{-predicted['difference']:.1f} standard errors below."
+    ) in said
+
+
+def test_a_model_that_predicts_is_not_refuted():
+    text = grown("logarithmic", "saturating")
+    scores = whole(text, "model_scores").set_index("model")
+    assert scores.loc["logarithmic", "standing"] == "survives"
+    first = text.prose("fits").split("For the interior")[0]
+    survivors = first.split("For the whole mesh, the ")[1].split(" survive")[0]
+    assert "logarithmic" in survivors
+    assert "For the whole mesh, no model survives" in grown("wave", "wave").prose("fits")
+
+
+def test_a_run_within_the_published_sizes_says_what_it_leaves_out():
+    said = page("growing").prose("fits")
+    assert said.startswith(
+        "This run has too few sizes on one side of 200,000 points, where the paper's range ends, "
+        "so that each model is fitted up to 4,000 points and has to predict the 1 larger size "
+        "left out."
+    )
+
+
+# The edge model
+
+
+@pytest.mark.parametrize(("interior", "agree"), [("level", "agree"), ("off", "do not agree")])
+def test_the_edge_limit_is_held_against_the_interior(interior, agree):
+    text = grown("thickening", interior)
+    said = text.prose("limit")
+    assert f"The two {agree}: they differ by " in said
+    row = text.evidence.rows(EDGE_LIMITS, method="incremental", distribution="uniform").first
+    assert row["interior"] == pytest.approx(CURVES[interior](np.array([1.0]))[0], abs=5e-4)
+    assert f"the limit {row['limit']:.4f}; the interior of the larger meshes has the mean " in said
+    assert f"{row['interior']:.4f}. The two" in said
+
+
+def test_there_is_no_edge_limit_where_the_interior_grows():
+    assert "The two" not in grown("saturating", "logarithmic").prose("limit")
+
+
+# Beyond the data
+
+
+def test_only_survivors_are_projected():
+    text = grown("logarithmic", "saturating")
+    said = text.prose("projections")
+    assert said.startswith("What follows is extrapolation, by the models that survive")
+    rows = whole(text, "projections", n_points=10**9)
+    assert "logarithmic" in set(rows["model"])
+    for row in rows.itertuples():
+        assert (
+            f"{row.prediction:.4f} ({row.model}, 95 % from {row.low:.4f} to {row.high:.4f})" in said
+        )
+    row = rows.set_index("model").loc["logarithmic"]
+    assert row["low"] < 3 + 0.005 * np.log(1e6) < row["high"]
+    limited = grown("saturating", "level").prose("projections")
+    assert "(logarithmic" not in limited
+    assert grown("wave", "wave").prose("projections") == ""
+
+
+# Table 7
 
 
 @pytest.mark.parametrize(("name", "best"), [("growing", "logarithmic"), ("straight", "linear")])
 def test_the_best_of_the_four_models(name, best):
-    x, y = observations(name)
-    r2 = {model: adjusted_r2(model, x, y) for model in BASES}
+    results = run(name)["results"].query("method == 'incremental'")
+    x, y = results["n_points"].to_numpy() / 1000, results["mean_lepp"].to_numpy()
+    logit = np.log(y / (4 - y))
+    one = np.ones_like(x)
+    r2 = {
+        "linear": OLS(y, np.column_stack([one, x])).fit().rsquared_adj,
+        "quadratic": OLS(y, np.column_stack([one, x, x * x])).fit().rsquared_adj,
+        "logistic": OLS(logit, np.column_stack([one, x])).fit().rsquared_adj,
+        "logarithmic": OLS(y, np.column_stack([one, np.log2(x)])).fit().rsquared_adj,
+    }
     top = max(r2, key=r2.get)
     assert top == best or r2[top] - r2[best] < 1e-3
     assert (
         page(name)
-        .prose("fits")
+        .prose("table-7")
         .startswith(
-            f"Of the paper's four models the {top} one fits the uniform points best, with an "
-            f"adjusted R² of {r2[top]:.3f}."
+            f"Of the paper's four models the {top} one fits the uniform points best by least "
+            f"squares, with an adjusted R² of {r2[top]:.3f}."
         )
     )
 
 
-def bic(model, x, y):
-    parameters = {"quadratic": 4, "saturating": 4}.get(model, 3)
-    return aic(model, x, y) + (np.log(len(y)) - 2) * parameters
-
-
-@pytest.mark.parametrize(("name", "agree"), [("growing", True), ("upwards", False)])
-def test_criteria_choose_the_lowest(name, agree):
-    x, y = observations(name)
-    models = list(BASES)
-    if "saturating" in page(name).finding("figure-7"):
-        models.append("saturating")
-    chosen = {
-        label: min(models, key=lambda m: of(m, x, y))
-        for label, of in (
-            ("AIC", aic),
-            ("BIC", bic),
-            ("the error of left-out groups", left_out),
+def test_figures_say_where_the_curves_are():
+    text = grown("saturating", "level")
+    for figure in ("figure-6", "figure-7"):
+        match = re.fullmatch(
+            r"At 2,000,000 points the curves for the whole mesh are from (\S+) \((.+)\) to (\S+) "
+            r"\((.+)\), and the measured mean is (\S+)\.",
+            text.finding(figure),
         )
-    }
-    assert (len(set(chosen.values())) == 1) == agree
-    words = [f"{label} chooses the {model} model" for label, model in chosen.items()]
-    assert (
-        f"AIC, BIC and the error of left-out groups all choose the {chosen['AIC']} model."
-        if agree
-        else f"The criteria do not agree: {words[0]}, {words[1]} and {words[2]}."
-    ) in page(name).prose("fits")
+        assert float(match[1]) < float(match[5]) < float(match[3])
+        assert match[4] == "linear"
 
 
-def test_models_that_do_not_follow_the_means_are_named():
-    said = page("bent").prose("fits")
-    x, y = observations("bent")
-    sizes = np.unique(x)
-    lacking = []
-    for model in BASES:
-        z = np.log(y / (4 - y)) if model == "logistic" else y
-        basis = BASES[model](x)
-        residual = ((z - basis @ np.linalg.lstsq(basis, z)[0]) ** 2).sum()
-        pure = sum(((z[x == s] - z[x == s].mean()) ** 2).sum() for s in sizes)
-        k = basis.shape[1]
-        f = (residual - pure) / (4 - k) / (pure / (len(z) - 4))
-        if special.fdtrc(4 - k, len(z) - 4, f) < 0.05:
-            lacking.append(model)
-    assert len(lacking) >= 3
-    named = said[said.index(". The ", said.index("R²")) :]
-    for model in BASES:
-        assert (model in named.split("do not follow")[0]) == (model in lacking)
-
-
-def test_gap_between_the_models():
-    x, y = observations("growing")
-    at = np.unique(np.linspace(1000, 8000, 41).round()) / 1000
-    said = page("growing").finding("figure-6")
-    curves = np.array([fit(model, x, y)(at) for model in BASES])
-    if "saturating" in page("growing").finding("figure-7"):
-        curves = np.vstack((curves, fit("saturating", x, y)(at)))
-    assert said == (
-        f"Inside the data the models lie within {np.ptp(curves, axis=0).max():.4f} of one another."
-    )
-
-
-@pytest.mark.parametrize("name", ["growing", "falling"])
-def test_predictions_far_beyond_the_data(name):
-    x, y = observations(name)
-    at = np.array([1e6])
-    said = page(name).prose("projections")
-    for model in BASES:
-        value = significant(float(fit(model, x, y)(at)[0]), 4).replace("\u00a0", " ")
-        assert f"{value} ({model})" in said
-    best = min(BASES, key=lambda m: aic(m, x, y))
-    if f"The {best} model, which has the lowest AIC" in said:
-        steps = [f"{fit(best, x, y)(np.array([10.0**k]))[0]:.4f}" for k in (3, 4, 5, 6)]
-        for step in steps:
-            assert step in said
-    far = page(name).finding("figure-7")
-    word = {"growing": "grows", "falling": "falls"}[name]
-    assert f"the logarithmic one {word} without bound" in far
-
-
-def test_limits_are_undecided_where_nothing_changes():
-    assert "the logarithmic one stays undecided" in page("level").finding("figure-7")
-    assert level(np.array([1.0])) == 3.05
-
-
-def test_a_run_of_one_size_says_that_models_are_missing():
-    from made_runs import DESIGN, drawn
-
-    one = DESIGN.model_copy(update={"sizes": (2000,)})
-    said = page_text(drawn(one))
-    assert said.prose("fits") == ""
+def test_a_run_of_one_size_says_nothing():
+    said = page_text(drawn(DESIGN.model_copy(update={"sizes": (2000,)})))
+    for part in ("fits", "projections", "table-7"):
+        assert said.prose(part) == ""
     assert said.finding("figure-6") == ""
-
-
-def test_models_that_follow_the_means_are_not_named():
-    assert "do not follow" not in page("level").prose("fits")
-    assert "does not follow" not in page("level").prose("fits")

@@ -7,10 +7,14 @@ from scipy import optimize, stats
 from statsmodels.regression.linear_model import OLS, WLS
 
 from study.analysis import analyse
+from study.analysis.measurements import Measurements, groups_of
 from study.paper import published
 from study.statistics.fitting import Observations, fit_saturating
 from study.statistics.groups import Groups
 from study.statistics.models import SATURATING
+from study.statistics.power_family import PowerFamily
+from study.statistics.size_means import SizeMeans
+from study.statistics.variance_function import power_law_variances
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +28,7 @@ def observed(study):
 
 def find(tables, table, **wanted):
     frame = tables[table].frame
-    wanted = {"method": "incremental", "distribution": "uniform"} | wanted
+    wanted = {"method": "incremental", "distribution": "uniform", "part": "whole"} | wanted
     for column, value in wanted.items():
         frame = frame[frame[column] == value]
     return frame
@@ -67,24 +71,21 @@ def test_logistic_is_the_straight_line_of_the_logit(study, observed):
 @pytest.mark.parametrize("fitting", ["least squares", "weighted"])
 def test_quality_is_statsmodels(study, observed, fitting):
     x, y = observed
-    spread = {n: y[x == n].var(ddof=1) for n in np.unique(x)}
-    w = np.array([1 / spread[n] for n in x]) if fitting == "weighted" else np.ones(len(x))
+    sizes, group = np.unique(x, return_inverse=True)
+    groups = Groups(sizes * 1000, tuple(y[group == k] for k in range(len(sizes))))
+    w = 1 / power_law_variances(groups)[group] if fitting == "weighted" else np.ones(len(x))
     fit = WLS(y, np.column_stack([np.ones_like(x), np.log2(x)]), weights=w).fit()
     row = find(study[2], "regressions", model="logarithmic", fitting=fitting).iloc[0]
     assert coefficients(study[2], "logarithmic", fitting) == pytest.approx(fit.params)
     assert row["adj_r2"] == pytest.approx(fit.rsquared_adj)
     assert row["f"] == pytest.approx(fit.fvalue)
     assert row["p"] == pytest.approx(fit.f_pvalue)
-    # statsmodels does not count the variance as a parameter
-    assert row["aic"] == pytest.approx(fit.aic + 2)
-    assert row["bic"] == pytest.approx(fit.bic + np.log(len(y)))
-
-
-def test_weights_are_reciprocal_sample_variances_of_groups_of_any_size():
-    values = (np.array([3.0, 3.1]), np.array([3.0, 3.2, 3.1, 3.4]))
-    seen = Observations.of(Groups(np.array([1000, 2000]), values), weighted=True)
-    expected = np.repeat([1 / np.var(group, ddof=1) for group in values], [2, 4])
-    np.testing.assert_allclose(seen.weights(seen.y), expected)
+    if fitting == "weighted":  # the variances are known
+        likelihood = stats.norm.logpdf(fit.resid, 0, 1 / np.sqrt(w)).sum()
+        assert row["aic"] == pytest.approx(2 * 2 - 2 * likelihood)
+    else:  # statsmodels does not count the variance as a parameter
+        assert row["aic"] == pytest.approx(fit.aic + 2)
+        assert row["bic"] == pytest.approx(fit.bic + np.log(len(y)))
 
 
 def test_aic_of_the_logistic_model_is_that_of_y(study, observed):
@@ -162,32 +163,52 @@ def test_a_straight_line_shows_no_saturation():
     assert "no saturation" in why
 
 
-def test_prediction_intervals_are_statsmodels(study, observed):
-    x, y = observed
-    fit = OLS(y, np.column_stack([np.ones_like(x), np.log2(x)])).fit()
-    expected = fit.get_prediction([[1, np.log2(1e6)]]).summary_frame().iloc[0]
-    frame = find(study[2], "projections", model="logarithmic", fitting="least squares")
-    row = frame[frame["n_points"] == 10**9].iloc[0]
-    assert row["prediction"] == pytest.approx(expected["mean"])
-    found = (row["low"], row["high"])
-    assert found == pytest.approx((expected["mean_ci_lower"], expected["mean_ci_upper"]))
+def test_saturating_coefficients_have_profile_intervals():
+    asked = design(distributions=("uniform",), sizes=(1000, 2000, 4000, 8000, 32000))
+    results, *others = frames(asked)
+    n = results["n_points"].to_numpy() / 1000
+    noise = np.random.default_rng(2).normal(0, 0.004, len(results)) / n**0.5
+    results["mean_lepp"] = 3.1 - 0.2 * n**-0.5 + noise
+    tables = analyse(results, *others, asked)
+    frame = find(tables, "coefficients", model="saturating").set_index("term")
+    assert frame["standard_error"].isna().all()
+    family = PowerFamily(SizeMeans.of(groups_of(results, "mean_lepp")))
+    assert frame.loc["b", ["low", "high"]].tolist() == pytest.approx(
+        [-family.power.high, -family.power.low]
+    )
+    limit = family.value(np.inf)
+    assert frame.loc["c", ["low", "high"]].tolist() == pytest.approx([limit.low, limit.high])
+    assert frame.loc["c", "estimate"] == pytest.approx(limit.estimate, abs=1e-4)
+    assert frame.loc["a", ["low", "high"]].isna().all()
 
 
-def test_limits_follow_the_signs(paper_study):
-    frame = find(paper_study[2], "limits", fitting="least squares").set_index("model")
-    assert frame.loc["linear", "limit"] == "grows without bound"
-    assert frame.loc["quadratic", "limit"] == "falls without bound"
-    assert frame.loc["logarithmic", "limit"] == "grows without bound"
-    assert frame.loc["logistic", "value"] == 4
+def test_least_squares_is_for_the_four_models_of_the_paper_and_the_whole(study):
+    frame = study[2]["regressions"].frame
+    plain = frame[frame["fitting"] == "least squares"]
+    assert set(plain["part"]) == {"whole"}
+    assert set(plain["model"]) <= {"linear", "quadratic", "logistic", "logarithmic"}
+    weighted = frame[frame["fitting"] == "weighted"]
+    assert set(weighted["part"]) == {"whole", "interior"}
+    assert {"edge", "thickening edge", "doubly logarithmic"} <= set(weighted["model"])
 
 
-def test_curves_pass_through_the_fit(study):
-    a, b = coefficients(study[2], "linear")
-    curve = find(study[2], "curves", model="linear")
-    np.testing.assert_allclose(curve["prediction"], a + b * curve["n_points"] / 1000)
-    inside = curve[curve["view"] == "data"]["n_points"]
-    assert (inside.min(), inside.max()) == (1000, 8000)
-    assert curve["n_points"].max() == 10**9
+def test_curves_pass_through_the_fits(study):
+    c, d = coefficients(study[2], "logarithmic", "weighted")
+    curve = find(study[2], "curves", model="logarithmic", view="all sizes")
+    np.testing.assert_allclose(curve["prediction"], c + d * np.log2(curve["n_points"] / 1000))
+    assert (curve["n_points"].min(), curve["n_points"].max()) == (1000, 80_000)
+    # of four sizes, three predict the last
+    curve = find(study[2], "curves", model="logarithmic", view="prediction")
+    at = curve["n_points"].to_numpy()
+    groups = Measurements.of(*study[1], study[0]).groups("incremental", "uniform")
+    means = SizeMeans.of(groups)
+    fit = WLS(
+        means.means[:3],
+        np.column_stack([np.ones(3), np.log2(means.x[:3])]),
+        weights=1 / means.variances[:3],
+    ).fit()
+    expected = fit.params[0] + fit.params[1] * np.log2(at / 1000)
+    np.testing.assert_allclose(curve["prediction"], expected)
 
 
 def test_published_coefficients_follow_from_the_published_means(paper_study):

@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 
 from study.analysis.building import Study
+from study.analysis.limits import FEW
 from study.analysis.table import Column, Table, Tables
 from study.paper import statements as module
 from study.statistics.groups import NotEnough
@@ -347,34 +348,33 @@ def test_best_of_the_four_models():
     assert why == "not all four models could be fitted"
 
 
-LIMIT = "The cost of a LEPP is constant: its mean size has a limit"
+COST, LIMIT = "cost of a LEPP is constant", "has a limit"
 
 
 @pytest.mark.parametrize(
-    ("gain", "holds"),
-    [
-        (300.0, "yes"),
-        (10.001, "yes"),
-        (10.0, "undecided"),
-        (0.5, "undecided"),
-        (-0.5, "undecided"),
-        (-1.8, "undecided"),
-        (-10.0, "undecided"),
-        (-10.001, "no"),  # no fit gives it: a logarithm is nearly a saturating model
-        (-300.0, "no"),
-    ],
+    ("highest", "holds"), [(3.07, "yes"), (4.0, "yes"), (4 + JUST, "no"), (5.0, "no")]
 )
-def test_limit_by_weighted_fits(gain, holds):
-    aic = {"logarithmic": 0.0, "saturating": -gain}
-    rows = [{"fitting": "weighted", "model": model, "aic": value} for model, value in aic.items()]
-    rows += [{"fitting": "least squares", "model": m, "aic": -v} for m, v in aic.items()]
-    side = "below" if gain > 0 else "above"
-    assert judged(LIMIT, regressions=rows) == (
-        holds, f"AIC of a model with a limit {abs(gain):.1f} {side} that of the logarithmic one",
+def test_the_cost_is_constant_if_no_mean_is_above_4(highest, holds):
+    rows = [
+        {"highest_mean": 3.0, "triangulations": 40},
+        {"highest_mean": highest, "triangulations": 1000},
+    ]
+    assert judged(COST, theorem_2=rows) == (
+        holds, f"at most {highest:.4f} in 1,040 triangulations",
     )  # fmt: skip
-    for lost in ("logarithmic", "saturating"):
-        rest = [row for row in rows if (row["fitting"], row["model"]) != ("weighted", lost)]
-        assert lacking(LIMIT, regressions=rest) == "the saturating model could not be fitted"
+
+
+@pytest.mark.parametrize("verdict", ["yes", "no", "undecided"])
+def test_a_limit_is_that_of_the_whole_mesh(verdict):
+    rows = [
+        {"part": "interior", "has_limit": "else", "reason": "not this"},
+        {"part": "whole", "has_limit": verdict, "reason": "so it is"},
+    ]
+    assert judged(LIMIT, limit_verdicts=rows) == (verdict, "so it is")
+    why = lacking(LIMIT, limit_verdicts=rows[:1])
+    assert why == "the run has too few triangulations"
+    few = [{"part": "whole", "has_limit": "undecided", "reason": FEW}]
+    assert lacking(LIMIT, limit_verdicts=few) == "the run has too few sizes"
 
 
 # The table
@@ -409,6 +409,7 @@ def test_statements_are_judged_for_each_population_by_its_rows():
             "groups": ["mean_max_lepp", "sd_between", "mean_lepp"],
             "regressions": ["fitting", "model"],
             "analogous": ["part"],
+            "limit_verdicts": ["part"],
         }.items()
     }
     tables = {name: table_of(name, frame) for name, frame in empty.items()}
@@ -422,7 +423,8 @@ def test_statements_are_judged_for_each_population_by_its_rows():
     premise = frame[frame["statement"] == PREMISE]
     assert premise["holds"].tolist() == ["yes", "no", "no"]
     assert set(premise["source"]) == {"Theorem 2"}
-    lacks = frame[~frame["source"].isin(["Theorem 2"])]
+    # Theorem 2's bounds say of the cost, too
+    lacks = frame[(frame["source"] != "Theorem 2") & ~frame["statement"].str.contains(COST)]
     assert set(lacks["holds"]) == {"not tested"}
     assert "the run has too few triangulations" in set(lacks["evidence"])
     assert frame["statement"].tolist()[: len(ASKED)] == [statement for _, statement, _ in ASKED]
@@ -430,7 +432,13 @@ def test_statements_are_judged_for_each_population_by_its_rows():
 
 def test_the_note_says_by_what_it_is_judged():
     note = module.STATEMENTS.note
-    for words in ("to within 0.05", "are at 0.05", "AIC above 10 ", "“not shown” of what"):
+    for words in (
+        "to within 0.05",
+        "are at 0.05",
+        "if it has a bound",
+        "models of growth survive",
+        "“not shown” of what",
+    ):
         assert words in note
 
 
@@ -459,7 +467,7 @@ def test_one_distribution_is_analogous_to_nothing():
 
 
 def test_every_statement_is_tested_here():
-    tested = [EVERY_STEP, PREMISE, *TRENDS, BEST, LIMIT]
+    tested = [EVERY_STEP, PREMISE, *TRENDS, BEST, COST, LIMIT]
     tested += ["is between 2 and 4", "is at most √6", "The variances of the groups differ"]
     tested += [
         ANALOGOUS,

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import pandas as pd
 import pytest
 
 from study.analysis.building import Study
@@ -45,25 +44,23 @@ def test_geometric_meshes_do_not_refute_theorem_1(study):
     assert (rows["holds"] == "not rejected").sum() >= 3  # one in twenty is by chance
 
 
-@pytest.mark.parametrize(
-    ("limit", "logarithmic", "holds"),
-    [(-100, -80, "yes"), (-80, -100, "no"), (-91, -90, "undecided"), (-90, -91, "undecided")],
-)
-def test_the_cost_has_a_limit_if_the_saturating_model_is_clearly_better(
-    study, limit, logarithmic, holds
-):
-    frame = study[2]["regressions"].frame
-    one = frame[frame["model"] == "logarithmic"].assign(aic=float(logarithmic))
-    other = one.assign(model="saturating", aic=float(limit))
+@pytest.mark.parametrize("verdict", ["yes", "no", "undecided"])
+def test_a_limit_is_what_the_whole_mesh_is_judged_to_have(study, verdict):
     asked, made, tables = study
-    both = replace(tables["regressions"], frame=pd.concat([one, other]))
-    (told,) = statements.statements.make(Study(Measurements.of(*made, asked), tables.adding(both)))
-    rows = told.rows(
-        statement="The cost of a LEPP is constant: its mean size has a limit",
-        method="incremental",
-        distribution="uniform",
-    )
-    assert rows.first["holds"] == holds
+    old = tables["limit_verdicts"]
+    other = {"yes": "no", "no": "yes", "undecided": "no"}[verdict]
+    whole = old.frame["part"] == "whole"
+    verdicts = whole.map({True: verdict, False: other})
+    frame = old.frame.assign(has_limit=verdicts, reason="as made")
+    changed = tables.adding(replace(old, frame=frame))
+    (told,) = statements.statements.make(Study(Measurements.of(*made, asked), changed))
+    rows = told.rows(method="incremental", distribution="uniform").frame.set_index("statement")
+    assert rows.loc[LIMIT, "holds"] == verdict
+    assert rows.loc[BOUND, "holds"] == "yes"
+
+
+BOUND = "The cost of a LEPP is constant: its mean size is at most 4"
+LIMIT = "The mean LEPP size has a limit as the number of points grows"
 
 
 def test_means_differ_if_the_analysis_of_variance_says_so(study):

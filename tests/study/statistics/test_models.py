@@ -1,33 +1,59 @@
 """The growth models against their formulas as they are printed, and their derivatives."""
 
+import re
+
 import numpy as np
 import pytest
 
 from study.statistics import models
 
 X = np.array([0.5, 1.0, 2.0, 10.0, 200.0])
-BY_NAME = {model.name: model for model in models.LINEAR_MODELS}
+LINEAR = [one for one in models.MODELS if isinstance(one, models.LinearModel)]
 
 
 def test_the_four_models_of_the_paper():
-    assert list(BY_NAME) == ["linear", "quadratic", "logistic", "logarithmic"]
+    assert [model.name for model in models.LINEAR_MODELS] == [
+        "linear",
+        "quadratic",
+        "logistic",
+        "logarithmic",
+    ]
 
 
-@pytest.mark.parametrize("model", models.LINEAR_MODELS, ids=lambda model: model.name)
+def written(formula, terms):
+    """The formula as Python has it."""
+    for mark, meaning in (("log2", "np.log2"), ("ln", "np.log"), ("exp", "np.exp"), ("^", "**")):
+        formula = formula.replace(mark, meaning)
+    formula = re.sub(r"(\d|\)) (x|\()", r"\1 * \2", formula)
+    for term in terms:
+        formula = re.sub(rf"\b{term} (x|np)", rf"{term} * \1", formula)
+    return formula
+
+
+@pytest.mark.parametrize("model", LINEAR, ids=lambda model: model.name)
 def test_basis_and_inverse_are_the_formula(model):
     scale = {"logistic": 0.01, "quadratic": 0.001}.get(model.name, 0.2)
     coefficients = scale * np.arange(1, len(model.terms) + 1)
     values = model.inverse(model.basis(X) @ coefficients)
-    formula = model.formula.replace("log2", "np.log2").replace("exp", "np.exp").replace("^", "**")
-    for term in model.terms:
-        formula = formula.replace(f" {term} x", f" {term} * x").replace(
-            f"{term} np", f"{term} * np"
-        )
     named = dict(zip(model.terms, coefficients, strict=True))
-    expected = eval(formula, {"np": np, "x": X} | named)
-    np.testing.assert_allclose(values, expected)
+    expected = eval(written(model.formula, model.terms), {"np": np, "x": X} | named)
+    np.testing.assert_allclose(values, np.broadcast_to(expected, X.shape))
     assert model.basis(X).shape == (len(X), len(model.terms))
     np.testing.assert_allclose(model.transform(values), model.basis(X) @ coefficients)
+
+
+@pytest.mark.parametrize("model", LINEAR, ids=lambda model: model.name)
+def test_the_first_coefficient_is_the_limit(model):
+    far = np.array([1e20, 1e40])
+    coefficients = np.arange(1.0, len(model.terms) + 1)
+    values = model.inverse(model.basis(far) @ coefficients)
+    if model.has_limit:
+        assert values == pytest.approx([1, 1], abs=1e-6)
+    elif model.has_limit is False:
+        # without bound, if only as ln ln n
+        assert values[1] - values[0] > 1
+    else:
+        assert model in (models.QUADRATIC, models.LOGISTIC)
 
 
 def test_logit_and_logistic():

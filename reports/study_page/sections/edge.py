@@ -1,0 +1,383 @@
+"""The edge of the mesh and its interior: where the mean comes from, and the longest paths."""
+
+from collections.abc import Callable
+
+import pandas as pd
+
+from lepp import INTERIOR_LAYER
+from reports.page import style
+from reports.page.blocks import FigureBlock, Prose, Section, Subsection, TableBlock, per_view
+from reports.page.evidence import Evidence
+from reports.page.style import Spec
+from reports.page.views import View, distribution_name, distribution_word
+from reports.text.numbers import count, show
+from reports.text.words import LEVEL
+from study.analysis.part_means import (
+    DISTRIBUTION_MEANS,
+    LAYER_MEANS,
+    LONGEST_PATHS,
+    PART_MEANS,
+)
+from study.analysis.parts import INTERIOR, WHOLE
+from study.statistics.verdicts import REJECTED
+
+#: Paths of a size that so many at least have are called long.
+_LONG = 100
+_DEFINITION = (
+    f"The interior is all triangles that are {INTERIOR_LAYER} or more steps across edges away from "
+    "a triangle at the hull; the edge is all others."
+)
+
+
+def section(evidence: Evidence) -> Section:
+    """Means of the parts, means of the layers, the layers of the longest paths."""
+    return Section(
+        "edge",
+        "The edge and the inside",
+        "Where in the mesh does the mean come from?",
+        (
+            Subsection(
+                "parts",
+                "The mean with the edge and without",
+                (
+                    Prose(per_view(evidence.views, lambda view: _parts(evidence, view))),
+                    _figure_parts(evidence),
+                    TableBlock(
+                        DISTRIBUTION_MEANS,
+                        "Whether the distributions have one mean",
+                        columns=(
+                            "part",
+                            "n_points",
+                            "p",
+                            "one_mean",
+                            "mean_lepp",
+                            "low",
+                            "high",
+                            "largest_difference",
+                        ),
+                        folded=True,
+                    ),
+                ),
+            ),
+            Subsection(
+                "layers",
+                "Layer by layer",
+                (
+                    Prose(per_view(evidence.views, lambda view: _layers(evidence, view))),
+                    _figure_layers(evidence),
+                ),
+            ),
+            Subsection(
+                "longest",
+                "Where the longest paths start",
+                (
+                    Prose(per_view(evidence.views, lambda view: _longest(evidence, view))),
+                    _figure_longest(evidence),
+                ),
+            ),
+        ),
+    )
+
+
+def _parts(evidence: Evidence, view: View) -> list[str] | None:
+    whole = evidence.rows(PART_MEANS, view, part=WHOLE)
+    interior = evidence.rows(PART_MEANS, view, part=INTERIOR)
+    if whole.empty:
+        return None
+    if interior.empty:
+        return [f"{_DEFINITION} No mesh of this run is large enough to have an interior."]
+    last = interior.last
+    sentences = [
+        f"{_DEFINITION} At {last['n_points']:,} points the edge has "
+        f"{show(1 - last['share'], 'percent2')} of the triangles by the {view.method_word} method."
+    ]
+    first = interior.first
+    at = whole.frame.set_index("n_points")["mean_lepp"]
+    if len(interior) > 1:
+        ends = (first["n_points"], last["n_points"])
+        change = at[ends[1]] - at[ends[0]], last["mean_lepp"] - first["mean_lepp"]
+        sentences.append(
+            f"From {ends[0]:,} to {ends[1]:,} points the mean of the whole mesh changes by "
+            f"{show(change[0], 'fixed4')}, from {show(at[ends[0]], 'fixed4')} to "
+            f"{show(at[ends[1]], 'fixed4')}, and that of the interior by "
+            f"{show(change[1], 'fixed4')}, from {show(first['mean_lepp'], 'fixed4')} to "
+            f"{show(last['mean_lepp'], 'fixed4')}."
+        )
+    paragraphs = [" ".join(sentences)]
+    one = _one_mean(evidence, view)
+    return [*paragraphs, one] if one else paragraphs
+
+
+def _one_mean(evidence: Evidence, view: View) -> str | None:
+    """Say whether the distributions have one mean in the interior, at the largest size."""
+    rows = evidence.rows(DISTRIBUTION_MEANS, method=view.method, part=INTERIOR)
+    if rows.empty:
+        return None
+    row = rows.last
+    which = (
+        f"the {distribution_word(row['lowest'])} points have the lowest and the "
+        f"{distribution_word(row['highest'])} ones the highest, "
+        f"{show(row['largest_difference'], 'fixed4')} apart"
+    )
+    opening = f"At {row['n_points']:,} points the interiors of the {row['distributions']} "
+    p = f"p\u00a0=\u00a0{show(row['log10_p'], 'log10p')}"
+    if row["one_mean"] == REJECTED:
+        return f"{opening}distributions do not have one mean ({p}): {which}."
+    return (
+        f"{opening}distributions may have one mean ({p}), {show(row['mean_lepp'], 'fixed4')} "
+        f"({LEVEL} from {show(row['low'], 'fixed4')} to {show(row['high'], 'fixed4')}): {which}."
+    )
+
+
+def _distributions(evidence: Evidence, make: Callable[[str, int], list[Spec]]) -> list[Spec]:
+    return [
+        trace for k, name in enumerate(evidence.design.distributions) for trace in make(name, k)
+    ]
+
+
+def _figure_parts(evidence: Evidence) -> FigureBlock:
+    def draw(view: View) -> Spec | None:
+        def traces(part: str) -> list[Spec]:
+            def of(distribution: str, series: int) -> list[Spec]:
+                rows = evidence.rows(PART_MEANS, View(view.method, distribution), part=part)
+                if rows.empty:
+                    return []
+                return [
+                    style.scatter(
+                        x=rows.column("n_points"),
+                        y=rows.column("mean_lepp"),
+                        mode="lines+markers",
+                        name=distribution_name(distribution),
+                        legendgroup=distribution,
+                        showlegend=part == WHOLE,
+                        line=style.line(series),
+                        marker=style.marker(series),
+                        error_y=_errors(rows.frame),
+                        hovertemplate="%{x:,} points: %{y:.4f}<extra>"
+                        + distribution_name(distribution)
+                        + "</extra>",
+                    )
+                ]
+
+            return _distributions(evidence, of)
+
+        parts = [(part, traces(part)) for part in (WHOLE, INTERIOR)]
+        drawn = [
+            style.Panel(
+                found,
+                style.powers("Number of points"),
+                style.axis("Mean LEPP size"),
+                title=f"The {part}{' mesh' if part == WHOLE else ''}",
+            )
+            for part, found in parts
+            if found
+        ]
+        return style.panels(drawn, height=340 * len(drawn)) if drawn else None
+
+    def say(view: View) -> str | None:
+        words = []
+        for part in (WHOLE, INTERIOR):
+            rows = evidence.rows(PART_MEANS, method=view.method, part=part).frame
+            if rows.empty:
+                continue
+            last = rows[rows["n_points"] == rows["n_points"].max()]["mean_lepp"]
+            words.append(
+                f"the {part} means of the {count(len(last), 'distribution')} lie from "
+                f"{show(last.min(), 'fixed4')} to {show(last.max(), 'fixed4')}"
+            )
+        if not words:
+            return None
+        largest = max(evidence.design.sizes)
+        return f"At {largest:,} points {' and '.join(words)}."
+
+    return FigureBlock(
+        id="figure-parts",
+        title="Mean LEPP size of the whole mesh and of its interior",
+        specs=per_view(evidence.views, draw),
+        alternatives=per_view(evidence.views, say),
+        reading=f"Dots are means over triangulations with {LEVEL} intervals; the horizontal scale "
+        "is logarithmic.",
+        data=(
+            TableBlock(PART_MEANS, "Data: means of the parts", follows=("method",)),
+        ),
+    )  # fmt: skip
+
+
+def _errors(frame: pd.DataFrame) -> Spec:
+    return {
+        "type": "data",
+        "symmetric": False,
+        "thickness": 1,
+        "width": 0,
+        "array": frame["high"] - frame["mean_lepp"],
+        "arrayminus": frame["mean_lepp"] - frame["low"],
+    }
+
+
+def _at_largest(evidence: Evidence, view: View) -> pd.DataFrame:
+    frame = evidence.rows(LAYER_MEANS, view).frame
+    return frame[frame["n_points"] == frame["n_points"].max()]
+
+
+def _layers(evidence: Evidence, view: View) -> list[str] | None:
+    layers = _at_largest(evidence, view)
+    edge = layers[layers["layer"] < INTERIOR_LAYER]
+    if edge.empty:
+        return None
+    high, low = edge.loc[edge["mean_lepp"].idxmax()], edge.loc[edge["mean_lepp"].idxmin()]
+    sentence = (
+        f"The layer of a triangle is its number of steps from the hull. At "
+        f"{high['n_points']:,} points the edge has {show(edge['share'].sum(), 'percent2')} of the "
+        f"triangles. Its mean is highest in layer {high['layer']}, at "
+        f"{_with_interval(high)}, and lowest in layer {low['layer']}, at {_with_interval(low)}"
+    )
+    interior = layers[layers["layer"] == INTERIOR_LAYER]
+    if interior.empty:
+        return [f"{sentence}."]
+    return [f"{sentence}; in the interior it is {show(interior['mean_lepp'].iloc[0], 'fixed4')}."]
+
+
+def _with_interval(row: pd.Series) -> str:
+    value = show(row["mean_lepp"], "fixed2")
+    if pd.isna(row["low"]):
+        return value
+    return f"{value} ({LEVEL} from {show(row['low'], 'fixed2')} to {show(row['high'], 'fixed2')})"
+
+
+def _figure_layers(evidence: Evidence) -> FigureBlock:
+    def draw(view: View) -> Spec | None:
+        def of(distribution: str, series: int) -> list[Spec]:
+            layers = _at_largest(evidence, View(view.method, distribution))
+            if layers.empty:
+                return []
+            return [
+                style.scatter(
+                    x=layers["layer"],
+                    y=layers["mean_lepp"],
+                    mode="lines+markers",
+                    name=distribution_name(distribution),
+                    line=style.line(series),
+                    marker=style.marker(series),
+                    error_y=_errors(layers),
+                    hovertemplate="layer %{x}: %{y:.4f}<extra>"
+                    + distribution_name(distribution)
+                    + "</extra>",
+                )
+            ]
+
+        traces = _distributions(evidence, of)
+        if not traces:
+            return None
+        ticks = list(range(0, INTERIOR_LAYER + 1, 5))
+        return style.plot(
+            *traces,
+            xaxis=style.axis(
+                "Layer: steps from the hull",
+                tickvals=ticks,
+                ticktext=[*map(str, ticks[:-1]), f"{ticks[-1]}+"],
+            ),
+            yaxis=style.axis("Mean LEPP size"),
+            height=420,
+        )
+
+    def say(view: View) -> str | None:
+        words = []
+        for distribution in evidence.design.distributions:
+            layers = _at_largest(evidence, View(view.method, distribution))
+            if not layers.empty:
+                top = layers.loc[layers["mean_lepp"].idxmax()]
+                words.append(
+                    f"{distribution_word(distribution)} points in layer {top['layer']} "
+                    f"({show(top['mean_lepp'], 'fixed2')})"
+                )
+        return f"The mean is highest for {', '.join(words)}." if words else None
+
+    return FigureBlock(
+        id="figure-layers",
+        title="Mean LEPP size by layer",
+        specs=per_view(evidence.views, draw),
+        alternatives=per_view(evidence.views, say),
+        reading=f"The last dot is the interior: layer {INTERIOR_LAYER} and all beyond. Lines are "
+        f"{LEVEL} intervals over triangulations of the largest number of points.",
+        data=(TableBlock(LAYER_MEANS, "Data: means of the layers"),),
+    )
+
+
+def _longest(evidence: Evidence, view: View) -> list[str] | None:
+    rows = evidence.rows(LONGEST_PATHS, view)
+    if rows.empty:
+        return None
+    frame, last = rows.frame, rows.last
+    many = frame[frame["paths"] >= _LONG]
+    sentences = []
+    if not many.empty:
+        long = many.iloc[-1]
+        sentences.append(
+            f"Of the {long['paths']:,} paths of {long['lepp_size']} triangles and more at "
+            f"{long['n_points']:,} points, {show(long['edge_share'], 'percent1')} start at the "
+            f"edge, which has {show(long['edge_triangles'], 'percent2')} of the triangles."
+        )
+    where = (
+        "in the interior" if last["layer"] == INTERIOR_LAYER else f"in layer {last['layer']}"
+    )  # fmt: skip
+    longest = count(last["paths"], "path has", "paths have")
+    sentences.append(
+        f"At this number of points {longest} the largest size of all, {last['lepp_size']}, and "
+        f"{'starts' if last['paths'] == 1 else 'most start'} {where}."
+    )
+    return [" ".join(sentences)]
+
+
+def _figure_longest(evidence: Evidence) -> FigureBlock:
+    def draw(view: View) -> Spec | None:
+        def of(distribution: str, series: int) -> list[Spec]:
+            rows = evidence.rows(LONGEST_PATHS, View(view.method, distribution))
+            if rows.empty:
+                return []
+            return [
+                style.scatter(
+                    x=rows.column("lepp_size"),
+                    y=rows.column("edge_share"),
+                    mode="lines+markers",
+                    name=distribution_name(distribution),
+                    line=style.line(series),
+                    marker=style.marker(series),
+                    hovertemplate="%{x} and more: %{y:.2%}<extra>"
+                    + distribution_name(distribution)
+                    + "</extra>",
+                )
+            ]
+
+        traces = _distributions(evidence, of)
+        if not traces:
+            return None
+        return style.plot(
+            *traces,
+            xaxis=style.axis("LEPP size of at least"),
+            yaxis=style.axis("Share that starts at the edge", range=[-0.02, 1.04]),
+        )
+
+    def say(view: View) -> str | None:
+        words = []
+        for distribution in evidence.design.distributions:
+            rows = evidence.rows(LONGEST_PATHS, View(view.method, distribution))
+            many = rows.frame[rows["paths"] >= _LONG]
+            if not many.empty:
+                long = many.iloc[-1]
+                words.append(
+                    f"{show(long['edge_share'], 'percent1')} for {distribution_word(distribution)} "
+                    f"points (of {long['lepp_size']} and more)"
+                )
+        if not words:
+            return None
+        return f"Of the longest paths, so many start at the edge: {', '.join(words)}."
+
+    return FigureBlock(
+        id="figure-longest",
+        title="Where the longest paths start",
+        specs=per_view(evidence.views, draw),
+        alternatives=per_view(evidence.views, say),
+        reading="At the left end are all triangles: there the share is that of the edge in the "
+        "mesh. A line that rises says that long paths start at the edge.",
+        data=(TableBlock(LONGEST_PATHS, "Data: paths by size and part"),),
+    )

@@ -1,0 +1,197 @@
+"""Which model survives: how each fits all sizes, predicts those not seen, and what it projects."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from study.analysis.building import Study, builds
+from study.analysis.parts import PART, PARTS
+from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Declaration, Row, Table
+from study.paper import published
+from study.statistics.groups import NotEnough
+from study.statistics.limit_verdict import (
+    LEAST_FITTED,
+    Candidate,
+    candidates,
+    survivors_of,
+)
+from study.statistics.model_scores import predictions, sizes_to_fit, value_interval
+from study.statistics.models import SATURATING, LinearModel
+from study.statistics.power_family import ProfileInterval
+from study.statistics.size_means import SizeMeans
+from study.statistics.thresholds import CLEAR_AIC, LEVEL, REFUTED_BELOW
+from study.statistics.verdicts import NO, YES
+
+#: The largest published number of points: models are fitted up to here before they predict.
+PUBLISHED_UP_TO = max(published.sizes())
+#: What becomes of a model.
+SURVIVES, BEHIND, REFUTED = "survives", "behind", "refuted"
+#: Where models that survive are asked for projections, in points.
+_FAR = tuple(10**power for power in range(6, 10))
+
+_MODEL = Column("model", "Model")
+
+MODEL_SCORES = Declaration(
+    "model_scores",
+    "Which model of growth survives",
+    (
+        METHOD,
+        DISTRIBUTION,
+        PART,
+        _MODEL,
+        Column("formula", "Formula, x in thousands of points"),
+        Column("has_limit", "Has a limit"),
+        Column("fitted_up_to", "Fitted up to", "points", "int"),
+        Column("predicted", "Sizes predicted", "", "int"),
+        Column("prediction_chi2", "Chi-squared, prediction", "", "fixed1"),
+        Column("prediction_p", "p, prediction", "", "p"),
+        Column("prediction_log10_p", "log10 p, prediction", "", "log10p"),
+        Column("worst", "Largest error", "standard errors", "fixed1"),
+        Column("fit_chi2", "Chi-squared, all sizes", "", "fixed1"),
+        Column("fit_df", "Df, all sizes", "", "int"),
+        Column("fit_p", "p, all sizes", "", "p"),
+        Column("delta_aic", "AIC above the lowest", "", "fixed1"),
+        Column("akaike_weight", "Akaike weight", "", "percent1"),
+        Column("standing", "Model"),
+    ),
+    note="Weighted fits to the means of the sizes; variances are a power of the number of points "
+    f"and count as known. A model is fitted to the sizes up to {PUBLISHED_UP_TO:,} points, the "
+    "paper's range, and predicts the others; where there are none, or too few to fit, the largest "
+    "quarter is predicted from the rest. Chi-squared of the prediction has the errors of the "
+    "means and, with all covariances, those of the fit; both are held against F with the "
+    f"degrees of freedom of the pure error. Refuted: one p below {REFUTED_BELOW}. Behind: its "
+    f"AIC of the fit to all sizes is more than {CLEAR_AIC:g} above that of a model that is not "
+    "refuted. The logistic model's limit of 4 is supposed, and a parabola turns round: these two "
+    "say nothing of a limit. The constant is the others with no slope.",
+)
+
+PREDICTIONS = Declaration(
+    "predictions",
+    "Sizes as models predict them that have not seen them",
+    (
+        METHOD,
+        DISTRIBUTION,
+        PART,
+        _MODEL,
+        N_POINTS,
+        Column("mean_lepp", "Mean LEPP", "triangles", "fixed4"),
+        Column("prediction", "Predicted", "triangles", "fixed4"),
+        Column("difference", "Measured less predicted", "standard errors", "fixed1"),
+    ),
+    note="Each size by itself, from the fits of the table of models. The standard error is that of "
+    "the difference: the fit's and the mean's.",
+)
+
+PROJECTIONS = Declaration(
+    "projections",
+    "Projections of the models that survive",
+    (
+        METHOD,
+        DISTRIBUTION,
+        PART,
+        _MODEL,
+        N_POINTS,
+        Column("prediction", "Mean LEPP", "triangles", "fixed4"),
+        Column("low", f"{LEVEL} from", "triangles", "fixed4"),
+        Column("high", f"{LEVEL} to", "triangles", "fixed4"),
+    ),
+    note="Extrapolation: no data are there. Only of models that survive, fitted to all sizes. "
+    "The intervals hold only if the model is true; those of the power models are by profile "
+    "likelihood over all powers.",
+)
+
+
+@dataclass(frozen=True)
+class Trend:
+    """The means of one method, distribution and part, and the models held against them."""
+
+    key: Row
+    means: SizeMeans
+    fitted: np.ndarray
+    candidates: tuple[Candidate, ...]
+
+
+@builds(MODEL_SCORES, PREDICTIONS, PROJECTIONS)
+def model_scores(study: Study) -> Iterator[Table]:
+    """Score every model on every method, distribution and part."""
+    trends = list(_trends(study))
+    yield MODEL_SCORES.table(row for trend in trends for row in _scores(trend))
+    yield PREDICTIONS.table(row for trend in trends for row in _predictions(trend))
+    yield PROJECTIONS.table(row for trend in trends for row in _projections(trend))
+
+
+def _trends(study: Study) -> Iterator[Trend]:
+    for method, distribution in study.data.populations:
+        for part in PARTS:
+            groups = study.data.groups(method, distribution, part)
+            key: Row = {"method": method, "distribution": distribution, "part": part}
+            try:
+                means = SizeMeans.of(groups)
+            except NotEnough:  # told of the regressions
+                continue
+            fitted = sizes_to_fit(means.n_points, PUBLISHED_UP_TO, LEAST_FITTED)
+            yield Trend(key, means, fitted, candidates(means, fitted))
+
+
+def _scores(trend: Trend) -> Iterator[Row]:
+    surviving = {one.model.name for one in survivors_of(trend.candidates)}
+    lowest = min((one.aic for one in trend.candidates), default=0.0)
+    total = sum(np.exp((lowest - one.aic) / 2) for one in trend.candidates)
+    for one in trend.candidates:
+        errors = [each.standard_errors for each in _predicted(trend, one)]
+        yield trend.key | {
+            "model": one.model.name,
+            "formula": one.model.formula,
+            "has_limit": {True: YES, False: NO, None: ""}[one.model.has_limit],
+            "fitted_up_to": int(trend.means.n_points[trend.fitted].max()),
+            "predicted": one.prediction.df,
+            "prediction_chi2": one.prediction.chi_squared,
+            "prediction_p": one.prediction.p,
+            "prediction_log10_p": one.prediction.log10_p,
+            "worst": max(errors, key=abs),
+            "fit_chi2": one.fit.chi_squared,
+            "fit_df": one.fit.df,
+            "fit_p": one.fit.p,
+            "delta_aic": one.aic - lowest,
+            "akaike_weight": np.exp((lowest - one.aic) / 2) / total,
+            "standing": _standing(one, surviving),
+        }
+
+
+def _standing(one: Candidate, surviving: set[str]) -> str:
+    if one.refuted:
+        return REFUTED
+    return SURVIVES if one.model.name in surviving else BEHIND
+
+
+def _predicted(trend: Trend, one: Candidate) -> list:
+    return list(predictions(one.model, trend.means, trend.fitted))
+
+
+def _predictions(trend: Trend) -> Iterator[Row]:
+    for one in trend.candidates:
+        for each in _predicted(trend, one):
+            yield trend.key | {
+                "model": one.model.name,
+                "n_points": each.n_points,
+                "mean_lepp": each.mean,
+                "prediction": each.prediction,
+                "difference": each.standard_errors,
+            }
+
+
+def _projections(trend: Trend) -> Iterator[Row]:
+    for one in survivors_of(trend.candidates):
+        if not isinstance(one.model, LinearModel) and one.model is not SATURATING:
+            continue  # the saturating model's intervals have all powers
+        for n in _FAR:
+            if n > trend.means.n_points[-1]:
+                found: ProfileInterval = value_interval(one.model, trend.means, n / 1000)
+                yield trend.key | {
+                    "model": one.model.name,
+                    "n_points": n,
+                    "prediction": found.estimate,
+                    "low": found.low,
+                    "high": found.high,
+                }

@@ -1,0 +1,230 @@
+"""The mean LEPP size of the whole mesh and of its interior, by size and by layer."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import pandas as pd
+
+from lepp import INTERIOR_LAYER
+from study.analysis.building import Population, Study, rows_by_population, rows_of
+from study.analysis.parts import INTERIOR, INTERIOR_NOTE, PART, PARTS
+from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Declaration, Row
+from study.statistics.groups import NotEnough
+from study.statistics.homogeneity import homogeneity
+from study.statistics.intervals import mean_interval, ratio_of_sums
+from study.statistics.size_means import SizeMeans
+from study.statistics.thresholds import LEVEL, SIGNIFICANCE
+from study.statistics.verdicts import rejected
+
+_SHARE = Column("share", "Share of the triangles", "", "percent2")
+_LAYER = Column("layer", "Layer", "", "int")
+_INTERVAL = (
+    Column("low", f"{LEVEL} from", "triangles", "fixed4"),
+    Column("high", f"{LEVEL} to", "triangles", "fixed4"),
+)
+
+PART_MEANS = Declaration(
+    "part_means",
+    "Mean LEPP size of the whole mesh and of its interior",
+    (
+        METHOD,
+        DISTRIBUTION,
+        PART,
+        N_POINTS,
+        Column("triangulations", "Triangulations", "", "int"),
+        _SHARE,
+        Column("mean_lepp", "Mean LEPP", "triangles", "fixed4"),
+        *_INTERVAL,
+    ),
+    note=f"{INTERIOR_NOTE} Each triangulation's mean counts once; one without an interior is left "
+    "out. The intervals are t intervals over triangulations.",
+)
+
+LAYER_MEANS = Declaration(
+    "layer_means",
+    "Mean LEPP size by layer",
+    (
+        METHOD,
+        DISTRIBUTION,
+        N_POINTS,
+        _LAYER,
+        _SHARE,
+        Column("mean_lepp", "Mean LEPP", "triangles", "fixed4"),
+        Column("standard_error", "Standard error", "triangles", "g2"),
+        *_INTERVAL,
+        Column("max_lepp", "Largest LEPP", "triangles", "int"),
+    ),
+    note="The layer of a triangle is the number of steps across edges from it to a triangle at the "
+    f"hull; {INTERIOR_LAYER} stands for that and more. The mean is over all triangles of a layer "
+    "in all triangulations of a size, the least, the middle and the largest of them; its standard "
+    "error is that of a ratio of sums over triangulations.",
+)
+
+LONGEST_PATHS = Declaration(
+    "longest_paths",
+    "Where the longest paths start",
+    (
+        METHOD,
+        DISTRIBUTION,
+        N_POINTS,
+        Column("lepp_size", "LEPP size of at least", "triangles", "int"),
+        Column("paths", "Paths", "triangles", "int"),
+        Column("interior_paths", "From the interior", "triangles", "int"),
+        Column("edge_share", "Share from the edge", "", "percent2"),
+        Column("edge_triangles", "Share of triangles at the edge", "", "percent2"),
+        Column("layer", "Commonest layer", "", "int"),
+    ),
+    note=f"{INTERIOR_NOTE} The edge is all other triangles. All triangulations of the largest "
+    "number of points together. The commonest layer is that of the edge in which most of these "
+    f"paths start, or {INTERIOR_LAYER} if more start in the interior.",
+)
+
+DISTRIBUTION_MEANS = Declaration(
+    "distribution_means",
+    "Whether all distributions have one mean",
+    (
+        METHOD,
+        PART,
+        N_POINTS,
+        Column("distributions", "Distributions", "", "int"),
+        Column("f", "F", "", "fixed2"),
+        Column("df_group", "Df, distributions", "", "int"),
+        Column("df_residual", "Df, residuals", "", "int"),
+        Column("p", "p", "", "p"),
+        Column("log10_p", "log10 p", "", "log10p"),
+        Column("one_mean", "One mean", "", "verdict"),
+        Column("mean_lepp", "Mean of all", "triangles", "fixed4"),
+        *_INTERVAL,
+        Column("largest_difference", "Largest difference", "triangles", "fixed4"),
+        Column("lowest", "Lowest", "", "name"),
+        Column("highest", "Highest", "", "name"),
+    ),
+    note="The means of the distributions weighted by their reciprocal squared standard errors, and "
+    "their weighted squares about it; variances are powers of the number of points within each "
+    f"distribution. Rejected at {SIGNIFICANCE}. The interval of the mean supposes that it is one.",
+)
+
+
+@rows_by_population(PART_MEANS, "means of the parts")
+def part_means(one: Population) -> Iterator[Row]:
+    """Mean of the triangulations' means, for the whole and the interior."""
+    for part in PARTS:
+        groups = one.data.groups(one.method, one.distribution, part)
+        shares = _interior_shares(one) if part == INTERIOR else None
+        for n, values in zip(groups.n_points, groups.values, strict=True):
+            mean, low, high = mean_interval(values)
+            yield {
+                "part": part,
+                "n_points": int(n),
+                "triangulations": len(values),
+                "share": 1.0 if shares is None else float(shares.loc[n]),
+                "mean_lepp": mean,
+                "low": low,
+                "high": high,
+            }
+
+
+def _interior_shares(one: Population) -> pd.Series:
+    rows = one.data.by_layer(one.method, one.distribution)
+    inside = rows[rows["layer"] == INTERIOR_LAYER]
+    return inside.groupby("n_points")["count"].sum() / rows.groupby("n_points")["count"].sum()
+
+
+@rows_by_population(LAYER_MEANS, "means of the layers")
+def layer_means(one: Population) -> Iterator[Row]:
+    """Mean over the triangles of each layer, at three sizes."""
+    rows = one.data.by_layer(one.method, one.distribution)
+    sizes = np.unique(rows["n_points"])
+    for n in sizes[sorted({0, len(sizes) // 2, len(sizes) - 1} & set(range(len(sizes))))]:
+        of_size = rows[rows["n_points"] == n]
+        total = of_size["count"].sum()
+        for layer, of_layer in of_size.groupby("layer", sort=True):
+            counts = _by_replicate(of_layer)
+            mean, error, low, high = ratio_of_sums(counts["steps"], counts["count"])
+            yield {
+                "n_points": int(n),
+                "layer": int(layer),
+                "share": of_layer["count"].sum() / total,
+                "mean_lepp": mean,
+                "standard_error": error,
+                "low": low,
+                "high": high,
+                "max_lepp": int(of_layer["lepp_size"].max()),
+            }
+
+
+def _by_replicate(rows: pd.DataFrame) -> dict[str, np.ndarray]:
+    steps = rows.assign(steps=rows["lepp_size"] * rows["count"])
+    sums = steps.groupby("replicate", sort=True)[["steps", "count"]].sum()
+    return {name: sums[name].to_numpy(dtype=np.int64) for name in sums}
+
+
+@rows_by_population(LONGEST_PATHS, "layers of the longest paths")
+def longest_paths(one: Population) -> Iterator[Row]:
+    """Of the paths of a size and more, those that start at the edge and in the interior."""
+    rows = one.data.by_layer(one.method, one.distribution)
+    if rows.empty:
+        return
+    n = rows["n_points"].max()
+    counts = rows[rows["n_points"] == n].pivot_table(
+        index="lepp_size", columns="layer", values="count", aggfunc="sum", fill_value=0
+    )
+    at_least = counts.iloc[::-1].cumsum().iloc[::-1]
+    inside = at_least.get(INTERIOR_LAYER, 0 * at_least.iloc[:, 0])
+    total = at_least.sum(axis=1)
+    for size in at_least.index:
+        yield {
+            "n_points": int(n),
+            "lepp_size": int(size),
+            "paths": int(total[size]),
+            "interior_paths": int(inside[size]),
+            "edge_share": 1 - inside[size] / total[size],
+            "edge_triangles": 1 - inside.iloc[0] / total.iloc[0],
+            "layer": int(at_least.loc[size].idxmax()),
+        }
+
+
+@rows_of(DISTRIBUTION_MEANS)
+def distribution_means(study: Study) -> Iterator[Row]:
+    """Hold the distributions' means against one another, at each size."""
+    design = study.data.design
+    for method in design.methods:
+        for part in PARTS:
+            means = {}
+            for distribution in design.distributions:
+                try:
+                    means[distribution] = SizeMeans.of(
+                        study.data.groups(method, distribution, part)
+                    )
+                except NotEnough:  # told of the fits, which need the same
+                    continue
+            for n in design.sizes:
+                row = _one_mean(means, n)
+                if row:
+                    yield {"method": method, "part": part, "n_points": n} | row
+
+
+def _one_mean(means: dict[str, SizeMeans], n: int) -> Row | None:
+    at = {name: one.where(one.n_points == n) for name, one in means.items()}
+    at = {name: one for name, one in at.items() if len(one)}
+    if len(at) < 2:
+        return None
+    values = np.array([one.means[0] for one in at.values()])
+    variances = np.array([one.variances[0] for one in at.values()])
+    test = homogeneity(values, variances, sum(one.df for one in at.values()))
+    names = list(at)
+    return {
+        "distributions": len(at),
+        "f": test.score.chi_squared / test.score.df,
+        "df_group": test.score.df,
+        "df_residual": test.score.df_error,
+        "p": test.score.p,
+        "log10_p": test.score.log10_p,
+        "one_mean": rejected(test.score.p < SIGNIFICANCE),
+        "mean_lepp": test.mean,
+        "low": test.low,
+        "high": test.high,
+        "largest_difference": float(np.ptp(values)),
+        "lowest": names[int(values.argmin())],
+        "highest": names[int(values.argmax())],
+    }

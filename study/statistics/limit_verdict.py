@@ -1,0 +1,218 @@
+"""Whether a mean that depends on the number of points has a limit: yes, no or undecided.
+
+Every model is refuted or not, by its lack of fit to all sizes and by the sizes it has not seen; of
+those that are not, some have a limit and some have none. What then is said:
+
+- *yes*, if the mean is level: a constant survives, and the interval of the change with each tenfold
+  number of points holds none that counts;
+- *yes*, if a model with a limit survives, and every model without one is out. The saturating model
+  c - a x^(-b) counts as one only if all of the profile interval of the power lambda = -b is below
+  `NEARLY_LOGARITHMIC`: for b -> 0 it is the logarithm, and with a small b it follows ln ln n or
+  (ln n)^(1/2) as far as anyone can compute, neither of which has a limit;
+- *no*, if a growth without limit survives, both edge models are out, and all of the interval of
+  lambda is above `NEARLY_LOGARITHMIC`. No limit is then in sight; that there is none at all, no
+  finite data can say;
+- *undecided* otherwise.
+
+A model is out if it is refuted, or if its AIC is `CLEAR_AIC` above that of one that is not.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from study.statistics.groups import NotEnough
+from study.statistics.model_scores import (
+    Score,
+    coefficient_interval,
+    lack_of_fit,
+    prediction_score,
+    sizes_to_fit,
+)
+from study.statistics.models import (
+    CONSTANT,
+    EDGE_MODELS,
+    LOGARITHMIC,
+    MODELS,
+    SATURATING,
+    LinearModel,
+    Model,
+)
+from study.statistics.power_family import PowerFamily, ProfileInterval
+from study.statistics.size_means import SizeMeans
+from study.statistics.thresholds import (
+    CLEAR_AIC,
+    LEVEL_PER_DECADE,
+    NEARLY_LOGARITHMIC,
+    REFUTED_BELOW,
+)
+from study.statistics.verdicts import NO, UNDECIDED, YES
+
+#: Sizes that a verdict needs; so many of them are fitted to, at the least.
+LEAST_SIZES, LEAST_FITTED = 6, 4
+
+#: What decides.
+LEVEL, LIMIT, GROWTH = "level", "limit", "growth"
+ROUGH, SEVERAL, NONE_FITS = "rough", "several", "none fits"
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A model, how it fits all sizes, and how it predicts those it has not seen.
+
+    Attributes
+    ----------
+    model : LinearModel or SaturatingModel
+    fit, prediction : Score
+    aic : float
+        With the variances known, up to what all models have in common.
+    """
+
+    model: Model
+    fit: Score
+    prediction: Score
+    aic: float
+
+    @property
+    def refuted(self) -> bool:
+        """By either."""
+        return min(self.fit.p, self.prediction.p) < REFUTED_BELOW
+
+
+@dataclass(frozen=True)
+class LimitVerdict:
+    """Whether there is a limit, and what decides it.
+
+    Attributes
+    ----------
+    verdict : str
+        YES, NO or UNDECIDED of `study.statistics.verdicts`.
+    reason : str
+        For yes LEVEL or LIMIT, for no GROWTH; else ROUGH (no change is seen, but one that counts is
+        not excluded), SEVERAL (models with and without a limit survive) or NONE_FITS.
+    survivors : tuple of Candidate
+        All that are not out, the lowest AIC first.
+    power : ProfileInterval
+        lambda.
+    per_decade : ProfileInterval
+        Change of the mean with each tenfold number of points, by the logarithm.
+    limit : ProfileInterval or None
+        Of the surviving model of the lowest AIC that has one, if the verdict is yes; its ends are
+        the furthest that any surviving model with a limit has.
+    """
+
+    verdict: str
+    reason: str
+    survivors: tuple[Candidate, ...]
+    power: ProfileInterval
+    per_decade: ProfileInterval
+    limit: ProfileInterval | None = None
+
+
+def candidates(means: SizeMeans, fitted: np.ndarray) -> tuple[Candidate, ...]:
+    """Score every model that the sizes suffice for.
+
+    Parameters
+    ----------
+    means : SizeMeans
+    fitted : (g,) bool ndarray
+        Which sizes models are fitted to before they predict the others.
+    """
+    scored = []
+    for model in MODELS:
+        try:
+            fit = lack_of_fit(model, means)
+            prediction = prediction_score(model, means, fitted)
+        except NotEnough:
+            continue
+        aic = fit.chi_squared + 2 * len(model.terms)
+        scored.append(Candidate(model, fit, prediction, aic))
+    return tuple(scored)
+
+
+def judge(means: SizeMeans, published_up_to: int) -> LimitVerdict:
+    """Say whether the mean has a limit.
+
+    Parameters
+    ----------
+    means : SizeMeans
+    published_up_to : int
+        Models are fitted to sizes up to this, before they predict the others.
+
+    Raises
+    ------
+    NotEnough
+        For fewer than `LEAST_SIZES` sizes.
+    """
+    if len(means) < LEAST_SIZES:
+        raise NotEnough(f"a verdict on the limit needs {LEAST_SIZES} sizes, not {len(means)}")
+    fitted = sizes_to_fit(means.n_points, published_up_to, LEAST_FITTED)
+    survivors = survivors_of(candidates(means, fitted))
+    family = PowerFamily(means)
+    decade = per_decade(means)
+    verdict, reason = _verdict(survivors, family, decade)
+    limit = _limit(means, survivors, reason) if verdict == YES else None
+    return LimitVerdict(verdict, reason, survivors, family.power, decade, limit)
+
+
+def per_decade(means: SizeMeans) -> ProfileInterval:
+    """Change of the mean with each tenfold number of points, if it is logarithmic."""
+    return _scaled(coefficient_interval(LOGARITHMIC, means, 1), float(np.log2(10)))
+
+
+def limit_of(model: Model, means: SizeMeans) -> ProfileInterval:
+    """Limit of a model that has one, with its interval.
+
+    Raises
+    ------
+    NotEnough
+        If the saturating model has none that can be seen.
+    """
+    if isinstance(model, LinearModel):
+        return coefficient_interval(model, means, 0)
+    return PowerFamily(means).value(np.inf)
+
+
+def _verdict(
+    survivors: tuple[Candidate, ...], family: PowerFamily, decade: ProfileInterval
+) -> tuple[str, str]:
+    names = {one.model.name for one in survivors}
+    if CONSTANT.name in names and max(-decade.low, decade.high) <= LEVEL_PER_DECADE:
+        return YES, LEVEL
+    if CONSTANT.name in names and decade.low <= 0 <= decade.high:
+        return UNDECIDED, ROUGH
+    grows = any(one.model.has_limit is False for one in survivors)
+    edge = any(model.name in names for model in EDGE_MODELS)
+    saturates = SATURATING.name in names and family.power.high < NEARLY_LOGARITHMIC
+    if not grows and (edge or saturates):
+        return YES, LIMIT
+    if grows and not edge and family.power.low > NEARLY_LOGARITHMIC:
+        return NO, GROWTH
+    some = any(one.model.has_limit is not None for one in survivors)
+    return UNDECIDED, SEVERAL if some else NONE_FITS
+
+
+def _limit(means: SizeMeans, survivors: tuple[Candidate, ...], reason: str) -> ProfileInterval:
+    if reason == LEVEL:
+        return limit_of(CONSTANT, means)
+    with_limit = [one.model for one in survivors if one.model in (*EDGE_MODELS, SATURATING)]
+    limits = []
+    for model in with_limit:
+        try:
+            limits.append(limit_of(model, means))
+        except NotEnough:  # the saturating model beside an edge that survives
+            continue
+    return ProfileInterval(
+        limits[0].estimate, min(one.low for one in limits), max(one.high for one in limits)
+    )
+
+
+def _scaled(interval: ProfileInterval, by: float) -> ProfileInterval:
+    return ProfileInterval(interval.estimate * by, interval.low * by, interval.high * by)
+
+
+def survivors_of(scored: Iterable[Candidate]) -> tuple[Candidate, ...]:
+    """Return the candidates that are not out, the lowest AIC first."""
+    left = sorted((one for one in scored if not one.refuted), key=lambda one: one.aic)
+    return tuple(one for one in left if one.aic - left[0].aic <= CLEAR_AIC)

@@ -1,0 +1,100 @@
+"""What the report says of the edge and the interior, on runs made one way and the other."""
+
+import pytest
+from grown_runs import grown
+from made_runs import page
+
+from lepp import INTERIOR_LAYER
+from study.analysis.part_means import DISTRIBUTION_MEANS, LAYER_MEANS, PART_MEANS
+
+VIEW = {"method": "incremental", "distribution": "uniform"}
+
+
+@pytest.mark.parametrize(
+    ("curves", "interior_grows"), [(("saturating", "level"), 0), (("level", "saturating"), 1)]
+)
+def test_the_trend_of_both_parts(curves, interior_grows):
+    text = grown(*curves)
+    frame = text.evidence.rows(PART_MEANS, **VIEW).frame.set_index("part")
+    ends = {part: frame.loc[part, "mean_lepp"].iloc[[0, -1]].tolist() for part in set(frame.index)}
+    changes = {part: f"{last - first:.4f}" for part, (first, last) in ends.items()}
+    changes = {part: change.replace("-", "−") for part, change in changes.items()}
+    said = text.prose("parts")
+    assert f"{INTERIOR_LAYER} or more steps across edges away from a triangle at the hull" in said
+    assert (
+        "From 10,000 to 2,000,000 points the mean of the whole mesh changes by "
+        f"{changes['whole']}, from {ends['whole'][0]:.4f} to {ends['whole'][1]:.4f}, and that of "
+        f"the interior by {changes['interior']}, from {ends['interior'][0]:.4f} to "
+        f"{ends['interior'][1]:.4f}."
+    ) in said
+    grows = {part: last - first > 0.02 for part, (first, last) in ends.items()}
+    assert grows == {"whole": not interior_grows, "interior": bool(interior_grows)}
+
+
+@pytest.mark.parametrize(
+    ("apart", "words"), [(-0.0003, "may have one mean (p = "), (0.02, "do not have one mean (p = ")]
+)
+def test_whether_distributions_have_one_interior_mean(apart, words):
+    text = grown("saturating", "level", apart=apart)
+    said = text.prose("parts")
+    assert f"At 2,000,000 points the interiors of the 2 distributions {words}" in said
+    row = text.evidence.rows(DISTRIBUTION_MEANS, method="incremental", part="interior").last
+    lowest, highest = row["lowest"], row["highest"]
+    assert f"the {lowest} points have the lowest and the {highest} ones the highest, " in said
+    assert f"{row['largest_difference']:.4f} apart" in said
+    if apart > 0:
+        assert (lowest, highest) == ("uniform", "exponential")
+    else:
+        assert f"{row['mean_lepp']:.4f} (95 % from {row['low']:.4f} to {row['high']:.4f})" in said
+
+
+@pytest.mark.parametrize("edge", [(5, 20, 30), (12, 25, 3)])
+def test_the_layers_of_the_highest_mean_and_of_the_longest_paths(edge):
+    text = grown("saturating", "level", edge=edge)
+    layer, size, paths = edge
+    rows = text.evidence.rows(LAYER_MEANS, **VIEW, n_points=2_000_000).frame.set_index("layer")
+    mean = (paths * size + 4 * 2005.5) / (paths + 2005.5)
+    assert rows.loc[layer, "mean_lepp"] == pytest.approx(mean)
+    said = text.prose("layers")
+    assert f"Its mean is highest in layer {layer}, at {mean:.2f} (95 % from " in said
+    assert "and lowest in layer 0, at 1.00; in the interior it is 3.47" in said
+    longest = text.prose("longest")
+    assert (
+        f"At this number of points {12 * paths} paths have the largest size of all, {size}, and "
+        f"most start in layer {layer}."
+    ) in longest
+    of_long = (
+        f"Of the {12 * paths:,} paths of {size} triangles and more at 2,000,000 points, 100.0 %"
+    )
+    assert (of_long in longest) == (12 * paths >= 100)
+
+
+def test_longest_paths_of_the_interior():
+    # nothing at the edge is longer than in the interior
+    text = grown("saturating", "level", edge=(5, 2, 30))
+    assert "and most start in the interior." in text.prose("longest")
+    assert "of 4 triangles and more at 2,000,000 points, 0.0 % start at the edge" in text.prose(
+        "longest"
+    )
+
+
+def test_figures_have_all_distributions():
+    text = grown("saturating", "level")
+    said = text.finding("figure-parts")
+    assert said.startswith("At 2,000,000 points the whole means of the 2 distributions lie from ")
+    assert "uniform points in layer 5" in text.finding("figure-layers")
+    assert "exponential points in layer 5" in text.finding("figure-layers")
+    assert "100.0 % for uniform points (of 20 and more)" in text.finding("figure-longest")
+    for figure in ("figure-parts", "figure-layers", "figure-longest"):
+        (block,) = (
+            block
+            for part in ("parts", "layers", "longest")
+            for block in text.blocks(part)
+            if getattr(block, "id", "") == figure
+        )
+        names = {trace["name"] for trace in block.specs["incremental/uniform"]["data"]}
+        assert names == {"Uniform", "Exponential"}
+
+
+def test_small_meshes_still_have_their_edge():
+    assert "the edge has" in page("growing").prose("parts")

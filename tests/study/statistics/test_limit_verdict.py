@@ -1,0 +1,157 @@
+"""The verdict on a limit, by data whose truth is known."""
+
+from collections import Counter
+
+import numpy as np
+import pytest
+
+from study.statistics import models
+from study.statistics.groups import Groups, NotEnough
+from study.statistics.limit_verdict import (
+    GROWTH,
+    LEVEL,
+    LIMIT,
+    NONE_FITS,
+    ROUGH,
+    SEVERAL,
+    candidates,
+    judge,
+    limit_of,
+    per_decade,
+)
+from study.statistics.model_scores import coefficient_interval, sizes_to_fit
+from study.statistics.size_means import SizeMeans
+from study.statistics.verdicts import NO, UNDECIDED, YES
+
+SIZES = np.array([1, 2, 5, 10, 20, 50, 100, 200, 500, 1000]) * 10**4
+COUNTS = [40, 40, 40, 40, 40, 40, 40, 20, 10, 6]
+PUBLISHED = 200_000
+RUNS = 24
+
+
+def made(curve, seed, spread=0.85, sizes=SIZES, counts=COUNTS):
+    """Means as variable as those of plain insertion."""
+    rng = np.random.default_rng(seed)
+    values = (
+        curve(n / 1000) + rng.normal(0, spread * n**-0.45, r)
+        for n, r in zip(sizes, counts, strict=True)
+    )
+    return SizeMeans.of(Groups(np.array(sizes), tuple(values)))
+
+
+def verdicts(curve, **settings):
+    judged = [judge(made(curve, seed, **settings), PUBLISHED) for seed in range(RUNS)]
+    return judged, Counter((one.verdict, one.reason) for one in judged)
+
+
+WITH_LIMIT = {
+    "saturating": (3.09, lambda x: 3.09 - 0.1 * x**-0.3),
+    "edge": (3.4765, lambda x: 3.4765 + 0.3 * x**-0.5),
+    "thickening edge": (3.4765, lambda x: 3.4765 + (0.2 + 0.05 * np.log(x)) * x**-0.5),
+}
+
+
+@pytest.mark.parametrize("name", WITH_LIMIT)
+def test_a_limit_is_seen(name):
+    truth, curve = WITH_LIMIT[name]
+    judged, counted = verdicts(curve)
+    assert counted[YES, LIMIT] >= 0.9 * RUNS
+    assert all(verdict != NO for verdict, _ in counted)
+    limits = [one.limit for one in judged if one.verdict == YES]
+    covered = [limit.low <= truth <= limit.high for limit in limits]
+    assert np.mean(covered) >= 0.85
+    assert all(limit.low <= limit.estimate <= limit.high for limit in limits)
+    named = Counter(one.model.name for each in judged for one in each.survivors)
+    assert named[name] >= 0.9 * RUNS
+    assert not named["logarithmic"]
+
+
+WITHOUT = {
+    "logarithm": lambda x: 3.04 + 0.0043 * np.log(x),
+    "falling logarithm": lambda x: 3.6 - 0.0043 * np.log(x),
+    "power": lambda x: 3 + 0.02 * x**0.2,
+    "line": lambda x: 3 + 1e-6 * x,
+    "root of the logarithm": lambda x: 3 + 0.03 * np.sqrt(np.log(1000 * x)),
+    "logarithm of the logarithm": lambda x: 2.9 + 0.06 * np.log(np.log(1000 * x)),
+}
+
+
+@pytest.mark.parametrize("name", WITHOUT)
+def test_growth_without_limit_is_never_taken_for_one(name):
+    judged, counted = verdicts(WITHOUT[name])
+    assert all(verdict != YES for verdict, _ in counted)
+    # The two slowest are no nearer to a logarithm than the data can tell.
+    assert counted[NO, GROWTH] >= {"l": 0.15, "r": 0.6}.get(name[0] * ("of" in name), 0.9) * RUNS
+    assert all(one.limit is None for one in judged)
+
+
+def test_a_level_mean_has_a_limit():
+    judged, counted = verdicts(lambda x: 3.4755 + 0 * x)
+    assert counted[YES, LEVEL] >= 0.85 * RUNS
+    for one in judged:
+        if one.reason == LEVEL:
+            assert one.limit.estimate == pytest.approx(3.4755, abs=0.001)
+            assert max(-one.per_decade.low, one.per_decade.high) <= 0.001
+
+
+def test_a_mean_that_is_level_as_far_as_is_seen():
+    _, counted = verdicts(lambda x: 3.05 + 0 * x, spread=5.0)
+    assert counted[UNDECIDED, ROUGH] >= 0.75 * RUNS
+    assert all(verdict == UNDECIDED for verdict, _ in counted)
+
+
+def test_a_change_too_small_to_count():
+    _, counted = verdicts(lambda x: 3.05 + 0.0002 * np.log10(x), spread=0.4)
+    assert counted[YES, LEVEL] >= 0.6 * RUNS
+    _, counted = verdicts(lambda x: 3.05 + 0.004 * np.log10(x), spread=0.4)
+    assert counted[YES, LEVEL] == 0
+
+
+def test_too_short_a_range_is_undecided():
+    sizes = np.arange(1, 21) * 10**4
+    for curve in (WITHOUT["logarithm"], lambda x: 3.11 - 0.095 * x**-0.14):
+        _, counted = verdicts(curve, sizes=sizes, counts=[40] * 20)
+        assert counted[UNDECIDED, SEVERAL] >= 0.8 * RUNS
+
+
+def test_no_model_follows_a_wave():
+    judged, counted = verdicts(lambda x: 3 + 0.03 * np.sin(2 * np.log(x)))
+    assert counted == {(UNDECIDED, NONE_FITS): RUNS}
+    assert not any(one.survivors for one in judged)
+
+
+def test_models_are_refuted_by_what_they_have_not_seen_and_by_aic():
+    means = made(WITH_LIMIT["thickening edge"][1], 1)
+    fitted = sizes_to_fit(means.n_points, PUBLISHED, 4)
+    scored = {one.model.name: one for one in candidates(means, fitted)}
+    assert len(scored) == len(models.MODELS)
+    assert scored["logarithmic"].refuted
+    assert scored["constant"].prediction.p < 1e-6
+    assert not scored["thickening edge"].refuted
+    one = scored["thickening edge"]
+    assert one.aic == pytest.approx(one.fit.chi_squared + 6)
+    survivors = judge(means, PUBLISHED).survivors
+    assert [one.aic for one in survivors] == sorted(one.aic for one in survivors)
+    best = min(one.aic for one in scored.values() if not one.refuted)
+    expected = {name for name, one in scored.items() if not one.refuted and one.aic <= best + 10}
+    assert {one.model.name for one in survivors} == expected
+
+
+def test_limits_and_slopes():
+    means = made(WITHOUT["logarithm"], 1)
+    slope = coefficient_interval(models.LOGARITHMIC, means, 1)
+    decade = per_decade(means)
+    assert decade.estimate == pytest.approx(slope.estimate * np.log2(10))
+    assert decade.low < 0.0043 * np.log(10) < decade.high
+    weights = 1 / means.variances
+    mean = np.average(means.means, weights=weights)
+    constant = limit_of(models.CONSTANT, means)
+    assert constant.estimate == pytest.approx(mean)
+    assert constant.high - mean == pytest.approx(1.968 / np.sqrt(weights.sum()), rel=2e-3)
+
+
+def test_too_few_sizes():
+    means = made(WITHOUT["logarithm"], 1)
+    with pytest.raises(NotEnough, match="needs 6 sizes, not 5"):
+        judge(means.where(np.arange(10) < 5), PUBLISHED)
+    assert judge(means.where(np.arange(10) < 6), PUBLISHED).verdict == UNDECIDED
