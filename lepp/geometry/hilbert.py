@@ -57,10 +57,7 @@ def hilbert_order(points, order, scratch):
         Overwritten.
     """
     n = len(points)
-    n_bits = 2 * _DIGIT_BITS
-    while n_bits < 2 * _BITS and (1 << n_bits) < 16 * n:
-        n_bits += _DIGIT_BITS
-    n_bits = min(n_bits, 2 * _BITS)
+    n_bits = key_bits(n)
     keys = _keys(points)
     shift = np.uint32(2 * _BITS - n_bits)
     # A key in the upper half, an index in the lower.
@@ -71,6 +68,18 @@ def hilbert_order(points, order, scratch):
     _order_runs(points, entries)
     for i in range(n):
         order[i] = entries[i]
+
+
+@kernel
+def key_bits(n):
+    """Return of how many bits the first keys of n points are: as whole digits, or all of them.
+
+    Two digits, or as many more as give the curve about 16 times as many places as there are points.
+    """
+    n_bits = 2 * _DIGIT_BITS
+    while n_bits < 2 * _BITS and (1 << n_bits) < 16 * n:
+        n_bits += _DIGIT_BITS
+    return min(n_bits, 2 * _BITS)
 
 
 @kernel
