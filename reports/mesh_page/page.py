@@ -63,7 +63,7 @@ def drawn_triangles(survey: Survey, most: int = MOST_DRAWN) -> np.ndarray:
         return np.arange(len(triangulation))
     centers = triangulation.points[triangulation.triangles].mean(axis=1)
     path = survey.worst_path[:most]
-    distances = ((centers - centers[path].mean(axis=0)) ** 2).sum(axis=1)
+    distances = np.linalg.norm(centers - centers[path].mean(axis=0), axis=1)
     distances[path] = -1.0
     return np.sort(np.argsort(distances, kind="stable")[:most])
 

@@ -146,7 +146,18 @@ def _regions(survey: Survey) -> dict[str, Any]:
 
 
 def size_counts(counts: np.ndarray) -> list[list[int]]:
-    """Return the sizes that occur, ascending, each with its number, from the numbers by size."""
+    """Return the sizes that occur, each with its number.
+
+    Parameters
+    ----------
+    counts : (k,) ndarray of int
+        ``counts[s]`` things have the size s.
+
+    Returns
+    -------
+    list of [int, int]
+        Pairs of a size and its number, ascending.
+    """
     sizes = np.flatnonzero(counts)
     return np.column_stack((sizes, counts[sizes])).tolist()
 
