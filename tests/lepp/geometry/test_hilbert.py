@@ -109,8 +109,8 @@ ORDERED = {
     "thin": reference_points("thin", 200, 1),
     "clusters": np.repeat(np.arange(6.0), 40)[:, None] + 1e-7 * reference_points("uniform", 240, 2),
     "copies": reference_points("uniform", 20, 3)[np.arange(100) % 20 // np.arange(1, 101)],
-    "runs of 16 and 17": np.repeat([[0.0, 0.0], [1.0, 1.0]], (16, 17), axis=0)
-    + 1e-6 * reference_points("uniform", 33, 4),
+    "runs of 16, 17 and 16": np.repeat([[0.0, 0.0], [0.0, 1.0], [1.0, 1.0]], (16, 17, 16), axis=0)
+    + 1e-6 * reference_points("uniform", 49, 4),
     "lattice": np.column_stack([axis.ravel() for axis in np.mgrid[0:14, 0:11]]).astype(float),
     "one": np.array([[0.1, 0.2]]),
     "largest": np.random.default_rng(3).permutation(
