@@ -74,6 +74,11 @@ def place_along_curve(x, y):
     return key
 
 
+def test_place_of_any_cell_is_that_of_the_definition():
+    cells = np.random.default_rng(1).integers(0, 2**16, (500, 2)).tolist()
+    assert [hilbert_key(x, y) for x, y in cells] == [place_along_curve(x, y) for x, y in cells]
+
+
 def naive_order(points, indices, n_bits):
     """The order by its definition, in rational arithmetic; (k,) indices."""
     exact = [tuple(map(Fraction, point)) for point in points[indices].tolist()]
