@@ -8,6 +8,7 @@ import pytest
 from lepp.geometry.predicates import (
     EPSILON,
     UNDERFLOW,
+    _product_error,
     difference_is_exact,
     orient,
     orientations,
@@ -83,6 +84,17 @@ def test_difference_is_exact(a, b, is_exact):
     assert bool(difference_is_exact(b, a, b - a)) == is_exact
     if is_exact:
         assert Fraction(a) - Fraction(b) == Fraction(a - b)
+
+
+@pytest.mark.parametrize("exponent", [-484, 0, 256, 510])
+def test_error_of_a_product_is_exact(exponent):
+    """Last bits of factors that are odd, and of which no half is short."""
+    numbers = np.random.default_rng(1).integers(2**52, 2**53, (500, 2)) | 1
+    for a, b in np.ldexp(numbers.astype(float), exponent - 53).tolist():
+        for x, y in ((a, b), (-b, a)):
+            assert Fraction(_product_error(x, y, x * y)) == Fraction(x) * Fraction(y) - Fraction(
+                x * y
+            )
 
 
 def test_points_are_the_same_in_both_coordinates():
