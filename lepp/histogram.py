@@ -14,6 +14,11 @@ class LeppCounts:
     counts : (k,) int64 ndarray
         ``counts[s]`` triangles have a LEPP of s triangles; no trailing zeros.
 
+    Raises
+    ------
+    ValueError
+        Counts that are not integers of at least 0, in one dimension.
+
     Notes
     -----
     Moments are those of all the triangles counted, not estimates for a larger population. They are
@@ -34,7 +39,22 @@ class LeppCounts:
 
     @classmethod
     def from_sizes(cls, sizes: np.ndarray) -> "LeppCounts":
-        """Count an (m,) array of LEPP sizes."""
+        """Count LEPP sizes.
+
+        Parameters
+        ----------
+        sizes : (m,) ndarray of int
+            At least 0.
+
+        Returns
+        -------
+        LeppCounts
+
+        Raises
+        ------
+        ValueError
+            A negative size, or more than one dimension.
+        """
         return cls(np.bincount(sizes))
 
     def __add__(self, other: "LeppCounts") -> "LeppCounts":
@@ -70,7 +90,7 @@ class LeppCounts:
 
     @property
     def sd(self) -> float:
-        """Standard deviation of the LEPP sizes (divisor: the number of triangles)."""
+        """Standard deviation of the LEPP sizes (divisor: `count`); nan when nothing was counted."""
         return float(np.sqrt(self._moments()[0]))
 
     @property

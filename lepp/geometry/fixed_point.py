@@ -65,13 +65,36 @@ def add_product(accumulator, weight, factors):
 
 @kernel
 def new_accumulator(degree):
-    """Return a fixed-point zero wide enough for products of `degree` doubles."""
+    """Return a fixed-point zero wide enough for products of `degree` doubles.
+
+    Parameters
+    ----------
+    degree : int
+        At least 1.
+
+    Returns
+    -------
+    (k,) int64 ndarray
+        Limbs of 32 bits, lowest first, of 2,200 bits a factor: the range of doubles, from the last
+        bit of the least to the first bit of the largest, has 2,098.
+    """
     return np.zeros(degree * (2200 // _LIMB_BITS + 1) + 4, np.int64)
 
 
 @kernel
 def accumulator_sign(accumulator):
-    """Return the sign (-1, 0 or 1) of a fixed-point number; its limbs are overwritten."""
+    """Return the sign of a fixed-point number.
+
+    Parameters
+    ----------
+    accumulator : (k,) int64 ndarray
+        From `new_accumulator`, after any number of `add_product`.
+
+    Returns
+    -------
+    int
+        -1, 0 or 1.
+    """
     carry = np.int64(0)
     nonzero = False
     for i in range(len(accumulator)):

@@ -7,7 +7,7 @@ from lepp.jit import kernel
 _BITS = 16  # of each coordinate; a key, the place along the curve, has twice as many
 _CELLS = 2.0**_BITS - 2.0**-20  # so that the last point is in the last cell, not beyond
 _DIGIT_BITS = 11
-# Longer runs of points in one cell are ordered again, in the box of their own.
+# Longer runs of points in one cell are ordered again, in a box about them.
 _LONGEST_RUN = 16
 _HALF_WORD = np.uint64(32)
 
@@ -44,7 +44,7 @@ def hilbert_order(points, order, scratch):
 
     The curve runs through a square of 2**16 cells a side about the points. Where it leaves more
     than a few points in one cell (or in the same few, about a sixteenth as many as there are
-    points), it goes through these once more, in a square of their own. So clusters and outliers of
+    points), it goes through these once more, in a square about these. So clusters and outliers of
     any scale are resolved.
 
     Parameters
@@ -57,10 +57,7 @@ def hilbert_order(points, order, scratch):
         Overwritten.
     """
     n = len(points)
-    n_bits = 2 * _DIGIT_BITS
-    while n_bits < 2 * _BITS and (1 << n_bits) < 16 * n:
-        n_bits += _DIGIT_BITS
-    n_bits = min(n_bits, 2 * _BITS)
+    n_bits = key_bits(n)
     keys = _keys(points)
     shift = np.uint32(2 * _BITS - n_bits)
     # A key in the upper half, an index in the lower.
@@ -71,6 +68,18 @@ def hilbert_order(points, order, scratch):
     _order_runs(points, entries)
     for i in range(n):
         order[i] = entries[i]
+
+
+@kernel
+def key_bits(n):
+    """Return the number of bits of the first keys of n points: whole digits, or all 32.
+
+    Two digits, or as many as give the curve 16 times as many places as there are points.
+    """
+    n_bits = 2 * _DIGIT_BITS
+    while n_bits < 2 * _BITS and (1 << n_bits) < 16 * n:
+        n_bits += _DIGIT_BITS
+    return min(n_bits, 2 * _BITS)
 
 
 @kernel
@@ -109,6 +118,11 @@ def hilbert_key(x, y):
     ----------
     x, y : int
         Column and row, below 2**16.
+
+    Returns
+    -------
+    int
+        From 0 to 2**32 - 1; cells that follow each other have a side in common.
     """
     step = np.int64(_STEPS[((x >> 12) << 4) | (y >> 12)])
     key = step & 0xFF
@@ -167,11 +181,11 @@ def _order_runs(points, entries):
 
 @kernel
 def _renew_keys(points, entries):
-    """Give the entries new keys, in the box of their own points."""
-    own = np.empty((len(entries), 2))
+    """Give the entries new keys, in the box of their points."""
+    places = np.empty((len(entries), 2))
     for k in range(len(entries)):
         i = np.uint32(entries[k])
-        own[k, 0], own[k, 1] = points[i, 0], points[i, 1]
-    keys = _keys(own)
+        places[k, 0], places[k, 1] = points[i, 0], points[i, 1]
+    keys = _keys(places)
     for k in range(len(entries)):
         entries[k] = (np.uint64(keys[k]) << _HALF_WORD) | np.uint64(np.uint32(entries[k]))

@@ -69,15 +69,61 @@ def edge_ranks(
 
 @kernel
 def squared_length(dx, dy):
-    """Return the square of a length: the same bits from both sides of an edge."""
+    """Return the rounded square of a length in the plane.
+
+    The same bits from both sides of an edge.
+
+    Parameters
+    ----------
+    dx, dy : float
+        Differences of the coordinates of its ends.
+
+    Returns
+    -------
+    float
+        Off by up to 4 `EPSILON` of itself, where nothing over- or underflows.
+    """
     return dx * dx + dy * dy
+
+
+@kernel
+def squared_length_in_space(points, a, b):
+    """Return the rounded square of the length of an edge of a surface.
+
+    The same bits from both sides of the edge.
+
+    Parameters
+    ----------
+    points : (n, 3) float64 ndarray
+    a, b : int
+        Ends of the edge.
+
+    Returns
+    -------
+    float
+        Off by up to 5 `EPSILON` of itself, where nothing over- or underflows.
+    """
+    dx, dy, dz = (
+        points[a, 0] - points[b, 0],
+        points[a, 1] - points[b, 1],
+        points[a, 2] - points[b, 2],
+    )
+    return dx * dx + dy * dy + dz * dz
 
 
 @kernel
 def is_certain(across_a, across_b, across_c):
     """Tell whether rounded squared lengths in the plane certainly are in the order of the lengths.
 
-    False, too, where they have over- or underflowed.
+    Parameters
+    ----------
+    across_a, across_b, across_c : float
+        `squared_length` of the edges of a triangle.
+
+    Returns
+    -------
+    bool
+        False, too, where they have over- or underflowed.
     """
     gap = min(abs(across_a - across_b), abs(across_b - across_c), abs(across_c - across_a))
     return gap > LENGTH_BOUND * (across_a + across_b + across_c) + UNDERFLOW
@@ -91,6 +137,12 @@ def rank(across_a, across_b, across_c):
     ----------
     across_a, across_b, across_c : float
         Squared lengths of edges 0, 1, 2.
+
+    Returns
+    -------
+    int
+        As the module describes it. Whether the longest two nearly agree is decided in rounded
+        arithmetic: where they differ by `NEARLY_EQUAL` but for a last bit, either way.
     """
     a_b = across_a > across_b
     long, short = (across_a, across_b) if a_b else (across_b, across_a)
@@ -117,8 +169,8 @@ def _add_square(accumulator, weight, x, y, w):
 def _compare_exactly(points, a, b, c, d, within):
     """Return the sign of |ab| - |cd| (1 + within), from the coordinates as they are."""
     if within == 0.0:
-        scale, known = _common_scale(points, a, b, c, d)
-        if known:
+        scale, are_integers = _common_scale(points, a, b, c, d)
+        if are_integers:
             total = np.int64(0)
             for k in range(points.shape[1]):
                 one = np.int64((points[a, k] - points[b, k]) * scale)
@@ -139,7 +191,8 @@ def _common_scale(points, a, b, c, d):
     Returns
     -------
     scale : float
-    known : bool
+        0 where there is none.
+    are_integers : bool
         Whether there is one.
     """
     largest = 0.0
@@ -240,10 +293,9 @@ def _rank_edges_in_space(points, triangles, within, ranks):
     """Do the same as `_rank_edges` for points with three coordinates."""
     for t in range(len(triangles)):
         a, b, c = triangles[t, 0], triangles[t, 1], triangles[t, 2]
-        across_a = across_b = across_c = 0.0
-        for k in range(3):
-            across_a += (points[b, k] - points[c, k]) ** 2
-            across_b += (points[c, k] - points[a, k]) ** 2
-            across_c += (points[a, k] - points[b, k]) ** 2
-        squares = (across_a, across_b, across_c)
+        squares = (
+            squared_length_in_space(points, b, c),
+            squared_length_in_space(points, c, a),
+            squared_length_in_space(points, a, b),
+        )
         ranks[t] = _exact_rank(points, (a, b, c), squares, within, SPACE_LENGTH_BOUND)

@@ -28,7 +28,18 @@ _SPLITTER = 2.0**27 + 1.0
 
 @kernel
 def exact_orientation(ax, ay, bx, by, cx, cy):
-    """Return the sign of `orientation` by fixed-point summation of its six products."""
+    """Return the sign of `orientation` by fixed-point summation of its six products.
+
+    Parameters
+    ----------
+    ax, ay, bx, by, cx, cy : float
+        Coordinates of a, b and c, finite.
+
+    Returns
+    -------
+    int
+        As `orientation`, which is faster.
+    """
     accumulator = new_accumulator(2)
     add_product(accumulator, 1, (ax, by))
     add_product(accumulator, -1, (ax, cy))
@@ -53,7 +64,25 @@ def _product_error(a, b, product):
 
 @kernel
 def difference_is_exact(a, b, difference):
-    """Tell whether `difference` is a - b without rounding, at a magnitude safe for products."""
+    """Tell whether `difference` is a - b without rounding, at a magnitude safe for products.
+
+    Parameters
+    ----------
+    a, b : float
+        Finite.
+    difference : float
+        Their rounded difference.
+
+    Returns
+    -------
+    bool
+        True where nothing was rounded off, and the difference is 0 or between 2**-485 and 2**511 in
+        magnitude.
+
+    Notes
+    -----
+    What the rounding loses is Knuth's two-sum: Shewchuk (1997), theorem 7.
+    """
     b_virtual = a - difference
     a_virtual = difference + b_virtual
     rounding = (a - a_virtual) + (b_virtual - b)
@@ -67,6 +96,16 @@ def uncertain_orientation(ax, ay, bx, by, cx, cy):
 
     On lattices the differences are exact and two exact products settle it; fixed point does the
     rest.
+
+    Parameters
+    ----------
+    ax, ay, bx, by, cx, cy : float
+        Coordinates of a, b and c, finite.
+
+    Returns
+    -------
+    int
+        As `orientation`.
     """
     acx, acy, bcx, bcy = ax - cx, ay - cy, bx - cx, by - cy
     if (
@@ -91,6 +130,12 @@ def turn_is_certain(left, right):
     ----------
     left, right : float
         The two products of rounded differences of which the turn is the difference.
+
+    Returns
+    -------
+    bool
+        Whether they are farther apart than `ORIENTATION_BOUND` allows (Shewchuk's ccwerrboundA),
+        and than underflow can lose.
     """
     return abs(left - right) > ORIENTATION_BOUND * (abs(left) + abs(right)) + UNDERFLOW
 
@@ -103,6 +148,11 @@ def turn_error(width, height):
     ----------
     width, height : float
         No point taken is farther from that point than this along x and y.
+
+    Returns
+    -------
+    float
+        Twice the bound of one product, `width` times `height`.
     """
     return 2.0 * ORIENTATION_BOUND * (width * height) + UNDERFLOW
 
@@ -110,6 +160,11 @@ def turn_error(width, height):
 @kernel
 def orientation(ax, ay, bx, by, cx, cy):
     """Tell on which side of the line from a to b the point c lies.
+
+    Parameters
+    ----------
+    ax, ay, bx, by, cx, cy : float
+        Coordinates of a, b and c, finite.
 
     Returns
     -------
@@ -126,7 +181,19 @@ def orientation(ax, ay, bx, by, cx, cy):
 
 @inlined
 def orient(points, a, b, c):
-    """Return `orientation` of three points given by their indices."""
+    """Return `orientation` of three points given by their indices.
+
+    Parameters
+    ----------
+    points : (n, 2) float64 ndarray
+        Finite.
+    a, b, c : int
+
+    Returns
+    -------
+    int
+        1, -1 or 0.
+    """
     return orientation(
         points[a, 0], points[a, 1], points[b, 0], points[b, 1], points[c, 0], points[c, 1]
     )
@@ -134,13 +201,35 @@ def orient(points, a, b, c):
 
 @inlined
 def same(points, a, b):
-    """Tell whether two points, given by their indices, coincide."""
+    """Tell whether two points, given by their indices, coincide.
+
+    Parameters
+    ----------
+    points : (n, 2) float64 ndarray
+    a, b : int
+
+    Returns
+    -------
+    bool
+    """
     return points[a, 0] == points[b, 0] and points[a, 1] == points[b, 1]
 
 
 @kernel
 def orientations(points, triangles):
-    """Return the `orientation` of each triangle of an (m, 3) array, as (m,) int8."""
+    """Return the `orientation` of each triangle.
+
+    Parameters
+    ----------
+    points : (n, 2) float64 ndarray
+        Finite.
+    triangles : (m, 3) int32 ndarray
+
+    Returns
+    -------
+    (m,) int8 ndarray
+        1, -1 or 0.
+    """
     signs = np.empty(len(triangles), np.int8)
     for t in range(len(triangles)):
         signs[t] = orient(points, triangles[t, 0], triangles[t, 1], triangles[t, 2])
@@ -180,7 +269,18 @@ def _add_minor(accumulator, sign, ax, ay, bx, by, cx, cy):
 
 @kernel
 def exact_in_circle(ax, ay, bx, by, cx, cy, px, py):
-    """Return the sign of `in_circle` by fixed-point summation of its 48 products."""
+    """Return the sign of `in_circle` by fixed-point summation of its 48 products.
+
+    Parameters
+    ----------
+    ax, ay, bx, by, cx, cy, px, py : float
+        Coordinates of a, b, c and p, finite.
+
+    Returns
+    -------
+    int
+        As `in_circle`, which is faster.
+    """
     accumulator = new_accumulator(4)
     _add_minor(accumulator, 1, ax, ay, bx, by, cx, cy)
     _add_minor(accumulator, -1, ax, ay, bx, by, px, py)
@@ -224,6 +324,20 @@ def uncertain_in_circle(ax, ay, bx, by, cx, cy, px, py):
     """Return the sign of `in_circle` where its first floating filter has failed.
 
     The second filter is sharper for points that lie near a line.
+
+    Parameters
+    ----------
+    ax, ay, bx, by, cx, cy, px, py : float
+        Coordinates of a, b, c and p, finite.
+
+    Returns
+    -------
+    int
+        As `in_circle`.
+
+    Notes
+    -----
+    The bound is Shewchuk's iccerrboundA: (10 + 96 EPSILON) EPSILON of the permanent.
     """
     adx, ady, bdx, bdy, cdx, cdy = ax - px, ay - py, bx - px, by - py, cx - px, cy - py
     a_square, b_square, c_square = (
@@ -257,6 +371,11 @@ def uncertain_in_circle(ax, ay, bx, by, cx, cy, px, py):
 @kernel
 def in_circle(ax, ay, bx, by, cx, cy, px, py):
     """Tell whether the point p lies inside the circle through a, b, c (counter-clockwise).
+
+    Parameters
+    ----------
+    ax, ay, bx, by, cx, cy, px, py : float
+        Coordinates of a, b, c and p, finite.
 
     Returns
     -------

@@ -37,13 +37,25 @@ def cache_directory() -> Path | None:
             directory.mkdir(mode=0o700, exist_ok=True)
         except OSError:
             continue
-        if _is_own(directory) and os.access(directory, os.W_OK | os.X_OK):
+        if _is_private(directory) and os.access(directory, os.W_OK | os.X_OK):
             return directory
     return None
 
 
 def sources_hash(package: Path) -> str:
-    """Return a hash of all Python files of a package, its subfolders included, and of versions."""
+    """Return a hash of all that decides the machine code of a package's kernels.
+
+    Parameters
+    ----------
+    package : Path
+        A folder of Python files; those in its subfolders count.
+
+    Returns
+    -------
+    str
+        16 hexadecimal digits, of the files' names and texts and the versions of numba, llvmlite and
+        NumPy.
+    """
     digest = hashlib.sha256()
     for version in (numba.__version__, llvmlite.__version__, np.__version__):
         digest.update(version.encode())
@@ -61,7 +73,7 @@ def _bases() -> Iterator[Path]:
     yield Path(tempfile.gettempdir()) / f"lepp-study{user}"
 
 
-def _is_own(directory: Path) -> bool:
+def _is_private(directory: Path) -> bool:
     """Tell whether a directory and the one above it are this user's, for nobody else to write."""
     if not hasattr(os, "getuid"):  # as on Windows, where the cache is in the user's profile
         return True

@@ -41,7 +41,19 @@ def for_kernels(array: np.ndarray, dtype: type) -> np.ndarray:
 
 
 def read_only(array: np.ndarray, dtype: type) -> np.ndarray:
-    """Return a view that cannot be written through, of a dtype and C-contiguous."""
+    """Return a view that cannot be written through.
+
+    Parameters
+    ----------
+    array : ndarray
+    dtype : type
+        Of the view.
+
+    Returns
+    -------
+    ndarray
+        C-contiguous and aligned; a copy where the array is not, or has another dtype.
+    """
     view = np.require(array, dtype, ["C_CONTIGUOUS", "ALIGNED"]).view(np.ndarray)
     view.setflags(write=False)
     return view

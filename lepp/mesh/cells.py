@@ -32,7 +32,18 @@ _NAMES = {
 
 
 def cell_kind(name: str) -> CellKind:
-    """Classify a type of cells by its name."""
+    """Classify a type of cells by its name.
+
+    Parameters
+    ----------
+    name : str
+        As meshio, VTK or Gmsh have it, in any case of letters.
+
+    Returns
+    -------
+    CellKind
+        `CellKind.OTHER` for a name that fits nothing.
+    """
     for kind, pattern in _NAMES.items():
         if re.fullmatch(pattern, name, re.IGNORECASE):
             return kind
@@ -40,7 +51,17 @@ def cell_kind(name: str) -> CellKind:
 
 
 def is_curved(name: str) -> bool:
-    """Tell whether a type of triangles has more nodes than its corners."""
+    """Tell whether a type of cells is that of triangles with more nodes than their corners.
+
+    Parameters
+    ----------
+    name : str
+        As for `cell_kind`.
+
+    Returns
+    -------
+    bool
+    """
     return cell_kind(name) is CellKind.TRIANGLE and name[len("triangle") :] not in ("", "3")
 
 

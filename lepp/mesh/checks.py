@@ -1,6 +1,6 @@
 """Whether triangles that are given make a mesh on which paths can be followed.
 
-All that is wrong is found and said at once. What cannot change a path is no problem: points that
+All that is wrong is reported at once. What cannot change a path is no problem: points that
 no triangle uses, the order of a triangle's vertices, pieces that meet in a point.
 """
 
@@ -39,7 +39,18 @@ class SoundMesh:
 
 
 def refuse_masked(array: np.ndarray, what: str) -> None:
-    """Raise an InputError if some of an array is masked: NumPy would drop the mask in silence."""
+    """Refuse an array of which some is masked: NumPy would drop the mask in silence.
+
+    Parameters
+    ----------
+    array : ndarray
+    what : str
+        What its rows are, as a message begins: "Points".
+
+    Raises
+    ------
+    InputError
+    """
     if np.ma.is_masked(array):
         mask = np.atleast_1d(np.ma.getmaskarray(array))
         rows = np.flatnonzero(mask.reshape(len(mask), -1).any(axis=1))
@@ -123,8 +134,8 @@ def sound_mesh(
         An unknown word in place of "refuse", "merge" or "keep".
     """
     if repeated_points not in get_args(RepeatedPoints):
-        known = ", ".join(map(repr, get_args(RepeatedPoints)))
-        raise InputError(f"repeated_points is {repeated_points!r}: use one of {known}.")
+        choices = ", ".join(map(repr, get_args(RepeatedPoints)))
+        raise InputError(f"repeated_points is {repeated_points!r}: use one of {choices}.")
     problems = []
     repeated = _repeated_points(points, triangles)
     merged = triangles

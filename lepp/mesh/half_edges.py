@@ -20,19 +20,49 @@ _U0, _U1, _U2, _U3 = (np.uint64(k) for k in (0, 1, 2, 3))
 
 @kernel
 def next_of(h):
-    """Return the half-edge after h, counter-clockwise, in its triangle."""
+    """Return the half-edge after h, counter-clockwise, in its triangle.
+
+    Parameters
+    ----------
+    h : uint64
+        Number of a half-edge.
+
+    Returns
+    -------
+    uint64
+    """
     return h - _U2 if h & _U3 == _U2 else h + _U1
 
 
 @kernel
 def previous_of(h):
-    """Return the half-edge before h in its triangle."""
+    """Return the half-edge before h in its triangle.
+
+    Parameters
+    ----------
+    h : uint64
+        Number of a half-edge.
+
+    Returns
+    -------
+    uint64
+    """
     return h + _U2 if h & _U3 == _U0 else h - _U1
 
 
 @kernel
 def write_first_triangle(rows, first, second, third, infinity):
-    """Write a triangle into row 0, and the three outside it into the next."""
+    """Write a triangle into row 0, and the three outside it into the next.
+
+    Parameters
+    ----------
+    rows : (32,) or longer uint32 ndarray, output
+        Rows of 8 lanes, one after the other.
+    first, second, third : int
+        Vertices, counter-clockwise.
+    infinity : int
+        The vertex of the outer triangles.
+    """
     corners = (first, second, third)
     for k in range(3):
         after, before = (k + 1) % 3, (k + 2) % 3

@@ -9,13 +9,36 @@ _ROUNDS = 40
 
 
 def single_edges(ranks: np.ndarray) -> np.ndarray:
-    """Return the longest edge of each triangle, (m,) uint8, from ranks that have one each."""
+    """Return the longest edge of each triangle, where it has one.
+
+    Parameters
+    ----------
+    ranks : (m,) uint8 ndarray
+        Of `lepp.geometry.lengths`, with one longest edge each.
+
+    Returns
+    -------
+    (m,) uint8 ndarray
+        0, 1 or 2: the edge across from that vertex.
+    """
     return (ranks & np.uint8(7)) >> np.uint8(1)  # 1, 2, 4 -> 0, 1, 2
 
 
 @kernel
 def step_over(neighbors, edges):
-    """Return the neighbour of each triangle across one of its edges, (m,) int32."""
+    """Return the neighbour of each triangle across one of its edges.
+
+    Parameters
+    ----------
+    neighbors : (m, 3) int32 ndarray
+    edges : (m,) uint8 ndarray
+        0, 1 or 2 each.
+
+    Returns
+    -------
+    (m,) int32 ndarray
+        -1 where the edge is on the boundary.
+    """
     successors = np.empty(len(edges), np.int32)
     for t in range(len(edges)):
         successors[t] = neighbors[t, edges[t]]
@@ -46,9 +69,9 @@ def follow(successors, ends):
     for t in range(m):
         s = successors[t]
         on = max(s, 0)
-        known = sizes[on]
+        following = sizes[on]
         terminal = successors[on] == t
-        size = known + 1 if known > 0 else 0
+        size = following + 1 if following > 0 else 0
         size = 2 if terminal else size
         size = 1 if s < 0 else size
         sizes[t] = size
@@ -62,8 +85,8 @@ def follow(successors, ends):
         for k in range(n_before):
             t = pending[k]
             s = successors[t]
-            known = sizes[s]
-            size = known + 1 if known > 0 else 0
+            following = sizes[s]
+            size = following + 1 if following > 0 else 0
             sizes[t] = size
             if wanted:
                 ends[t] = ends[s]

@@ -12,6 +12,7 @@ from reports.text.numbers import count, show
 from study.meshes.near_points import NEAR
 from study.meshes.survey import QUANTILES, RANDOM_DELAUNAY, Survey, quantile
 
+_RANDOM = "Delaunay meshes of random points"
 _ROWS = 24  # of a histogram; the sizes beyond share the last
 _STEPS = 12  # of a path that are named in a sentence
 
@@ -106,9 +107,9 @@ def spread(survey: Survey) -> str:
     )
 
 
-def worst(found: Survey) -> str:
+def worst(survey: Survey) -> str:
     """Name the longest path."""
-    path, sizes = found.worst_path, found.paths.sizes
+    path, sizes = survey.worst_path, survey.paths.sizes
     others = int((sizes == len(path)).sum()) - 1
     as_long = (
         "no other path is as long"
@@ -120,9 +121,9 @@ def worst(found: Survey) -> str:
     names = [f"{t:,}" for t in path]
     if len(names) > _STEPS:
         names = [*names[: _STEPS - 2], f"… {len(names) - _STEPS + 1:,} more …", names[-1]]
-    in_pair = found.paths.neighbor_types[path[-2]] == lepp.TYPE_C
+    in_pair = survey.paths.neighbor_types[path[-2]] == lepp.TYPE_C
     end = "between the last two" if in_pair else "on the boundary"
-    a, b = found.paths.terminal_edges[found.paths.regions[path[0]]]
+    a, b = survey.paths.terminal_edges[survey.paths.regions[path[0]]]
     return (
         f"The longest path starts at triangle {path[0]:,} and goes {' → '.join(names)}; its "
         f"terminal edge is {end}, from point {a:,} to point {b:,}; {as_long}."
@@ -209,14 +210,14 @@ def tiles(survey: Survey) -> list[Tile]:
         Tile(
             show(survey.type_counts["C"] / len(survey.triangulation), "percent1"),
             "Triangles in terminal pairs",
-            f"{show(RANDOM_DELAUNAY['pair_share'], 'percent1')} in random Delaunay meshes"
+            f"{show(RANDOM_DELAUNAY['pair_share'], 'percent1')} in {_RANDOM}"
             if survey.is_like_random
             else "two that have their longest edge in common",
         ),
         Tile(
             show(float(sizes.mean()), "fixed2"),
             "Mean terminal-edge region",
-            f"triangles; {RANDOM_DELAUNAY['mean_region']} in random Delaunay meshes"
+            f"triangles; {RANDOM_DELAUNAY['mean_region']} in {_RANDOM}"
             if survey.is_like_random
             else "triangles whose paths end at one edge",
         ),
@@ -229,8 +230,9 @@ def tiles(survey: Survey) -> list[Tile]:
 
 
 def facts(survey: Survey) -> list[tuple[str, str]]:
-    """Describe the mesh itself."""
+    """Describe the mesh itself, as the file joins its triangles."""
     shape = survey.topology
+    cut = " (as cut at the hanging nodes)" if len(survey.hanging_nodes) else ""
     pieces = shape.n_pieces
     boundary = (
         f"{count(shape.n_boundary_edges, 'edge')} in {count(shape.n_boundary_loops, 'closed line')}"
@@ -241,14 +243,14 @@ def facts(survey: Survey) -> list[tuple[str, str]]:
         ("Triangles", f"{shape.n_triangles:,}"),
         ("Points", f"{shape.n_points:,}"),
         ("Edges", f"{shape.n_edges:,}"),
-        ("Boundary", boundary),
-        ("Pieces", f"{pieces:,}" + (", between which no path goes" if pieces > 1 else "")),
+        ("Boundary", boundary + cut),
+        ("Pieces", f"{pieces:,}" + (", between which no path goes" if pieces > 1 else "") + cut),
     ]
     if shape.n_holes is None:
-        rows.append(("Euler number", show(shape.euler_number, "int")))
+        rows.append(("Euler number", show(shape.euler_number, "int") + cut))
         rows.insert(0, ("Mesh", "a surface in space"))
     else:
-        rows.append(("Holes", f"{shape.n_holes:,}"))
+        rows.append(("Holes", f"{shape.n_holes:,}" + cut))
         rows.insert(0, ("Mesh", "in the plane"))
     return rows
 

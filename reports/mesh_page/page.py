@@ -11,6 +11,7 @@ from reports.mesh_page import findings
 from reports.page.assets import environment, static
 from reports.page.blocks import ALWAYS, Facts, Prose, Tiles
 from reports.text.numbers import show
+from study.meshes.as_json import size_counts
 from study.meshes.survey import Survey
 
 MOST_DRAWN = 100_000
@@ -55,14 +56,14 @@ def render(survey: Survey) -> str:
     )
 
 
-def drawn_triangles(found: Survey, most: int = MOST_DRAWN) -> np.ndarray:
+def drawn_triangles(survey: Survey, most: int = MOST_DRAWN) -> np.ndarray:
     """Return the triangles to draw: all, or those around the longest path, ascending."""
-    triangulation = found.triangulation
+    triangulation = survey.triangulation
     if len(triangulation) <= most:
         return np.arange(len(triangulation))
     centers = triangulation.points[triangulation.triangles].mean(axis=1)
-    path = found.worst_path[:most]
-    distances = ((centers - centers[path].mean(axis=0)) ** 2).sum(axis=1)
+    path = survey.worst_path[:most]
+    distances = np.linalg.norm(centers - centers[path].mean(axis=0), axis=1)
     distances[path] = -1.0
     return np.sort(np.argsort(distances, kind="stable")[:most])
 
@@ -77,55 +78,66 @@ def size_classes(largest: int) -> list[tuple[int, int]]:
     return list(zip(starts, ends, strict=True))
 
 
-def drawing(found: Survey, drawn: np.ndarray) -> dict[str, object]:
+def drawing(survey: Survey, drawn: np.ndarray) -> dict[str, object]:
     """Describe the drawing to the page's script."""
     return {
-        "points": len(np.unique(found.triangulation.triangles[drawn])),
+        "points": len(np.unique(survey.triangulation.triangles[drawn])),
         "triangles": len(drawn),
-        "dimensions": found.triangulation.points.shape[1],
-        "classes": size_classes(found.counts.max),
-        "worst": int(np.searchsorted(drawn, found.worst_path[0])),
-        "total": len(found.triangulation),
+        "dimensions": survey.triangulation.points.shape[1],
+        "classes": size_classes(survey.counts.max),
+        "worst": int(np.searchsorted(drawn, survey.worst_path[0])),
+        "total": len(survey.triangulation),
+        "name": survey.mesh.path.stem,
+        "histograms": {
+            "sizes": {
+                "header": "lepp_size,triangles",
+                "counts": size_counts(survey.counts.counts),
+            },
+            "regions": {
+                "header": "triangles,regions",
+                "counts": size_counts(np.bincount(survey.region_sizes)),
+            },
+        },
     }
 
 
-def packed(found: Survey, drawn: np.ndarray) -> str:
+def packed(survey: Survey, drawn: np.ndarray) -> str:
     """Pack the arrays that the page draws, compressed, as base64.
 
     Little-endian, one after the other: coordinates (float32, between -1 and 1); vertices,
-    successors (as places in what is drawn; -1 where none is), sizes, and the triangles' own
-    numbers (int32); and where paths end (uint8): 0 where the path goes on, 1 + k where the longest
-    edge, across from vertex k, is on the boundary, and 4 + k where it is the longest of the
-    triangle beside it, too.
+    successors (as places in what is drawn; -1 where none is), sizes, and the numbers that the
+    triangles have in the whole mesh (int32); and where paths end (uint8): 0 where the path goes on,
+    1 + k where the longest edge, across from vertex k, is on the boundary, and 4 + k where it is
+    the longest of the triangle beside it, too.
     """
-    triangles = found.triangulation.triangles[drawn]
+    triangles = survey.triangulation.triangles[drawn]
     used, vertices = np.unique(triangles, return_inverse=True)
-    points = found.triangulation.points[used]
+    points = survey.triangulation.points[used]
     low, high = points.min(axis=0), points.max(axis=0)
     middle = low / 2 + high / 2
     points = (points - middle) / max(float((high / 2 - low / 2).max()), np.finfo(float).tiny)
     arrays = (
         points.astype("<f4"),
         vertices.astype("<i4"),
-        _successors(found, drawn).astype("<i4"),
-        found.paths.sizes[drawn].astype("<i4"),
+        _successors(survey, drawn).astype("<i4"),
+        survey.paths.sizes[drawn].astype("<i4"),
         drawn.astype("<i4"),
-        _ends(found, drawn),
+        _ends(survey, drawn),
     )
     content = b"".join(array.tobytes() for array in arrays)
     return base64.b64encode(zlib.compress(content, 9)).decode("ascii")
 
 
-def _successors(found: Survey, drawn: np.ndarray) -> np.ndarray:
-    place = np.full(len(found.triangulation) + 1, -1)  # the last for no successor
+def _successors(survey: Survey, drawn: np.ndarray) -> np.ndarray:
+    place = np.full(len(survey.triangulation) + 1, -1)  # the last for no successor
     place[drawn] = np.arange(len(drawn))
-    return place[found.paths.successors[drawn]]
+    return place[survey.paths.successors[drawn]]
 
 
-def _ends(found: Survey, drawn: np.ndarray) -> np.ndarray:
-    types = found.paths.neighbor_types[drawn]
-    edges = found.paths.terminal_edges[found.paths.regions[drawn]]
-    triangles = found.triangulation.triangles[drawn]
+def _ends(survey: Survey, drawn: np.ndarray) -> np.ndarray:
+    types = survey.paths.neighbor_types[drawn]
+    edges = survey.paths.terminal_edges[survey.paths.regions[drawn]]
+    triangles = survey.triangulation.triangles[drawn]
     across = (triangles[:, :, None] != edges[:, None, :]).all(axis=2).argmax(axis=1)
     kinds = [_BOUNDARY + across, _PAIR + across]
     return np.select([types == lepp.TYPE_NONE, types == lepp.TYPE_C], kinds, 0).astype(np.uint8)

@@ -64,7 +64,7 @@ def as_json(survey: Survey) -> dict[str, Any]:
             "max": counts.max,
             "quantiles": {str(share): quantile(counts, share) for share in QUANTILES},
             "end_at_once": survey.share_at_once,
-            "histogram": _pairs(counts.counts),
+            "histogram": size_counts(counts.counts),
         },
         "ties": {
             "n_equal": paths.n_equal,
@@ -141,11 +141,23 @@ def _regions(survey: Survey) -> dict[str, Any]:
             "points": edges[largest].tolist(),
             "coordinates": survey.triangulation.points[edges[largest]].tolist(),
         },
-        "histogram": _pairs(np.bincount(sizes)),
+        "histogram": size_counts(np.bincount(sizes)),
     }
 
 
-def _pairs(counts: np.ndarray) -> list[list[int]]:
+def size_counts(counts: np.ndarray) -> list[list[int]]:
+    """Return the sizes that occur, each with its number.
+
+    Parameters
+    ----------
+    counts : (k,) ndarray of int
+        ``counts[s]`` things have the size s.
+
+    Returns
+    -------
+    list of [int, int]
+        Pairs of a size and its number, ascending.
+    """
     sizes = np.flatnonzero(counts)
     return np.column_stack((sizes, counts[sizes])).tolist()
 

@@ -15,10 +15,22 @@ _CANDIDATES = 2_000_000  # looked at together, which bounds the memory
 
 
 def hanging_nodes(triangulation: lepp.Triangulation) -> np.ndarray:
-    """Return the boundary points that lie exactly inside a boundary edge, ascending, (k,) int64.
+    """Find the boundary points that lie exactly inside a boundary edge.
 
-    The edges are cut into pieces no longer than they are on average, of which each is asked for
-    the points near it; so the time is about linear, however long some edges are.
+    Parameters
+    ----------
+    triangulation : lepp.Triangulation
+        In the plane or in space.
+
+    Returns
+    -------
+    (k,) int64 ndarray
+        Indices of points, ascending.
+
+    Notes
+    -----
+    The edges are cut into pieces no longer than they are on average, and the points near each piece
+    are looked up; so the time is about linear, however long some edges are.
     """
     row, side = np.nonzero(triangulation.neighbors < 0)
     triangles, points = triangulation.triangles, triangulation.points
@@ -27,7 +39,7 @@ def hanging_nodes(triangulation: lepp.Triangulation) -> np.ndarray:
     if len(ids) < 4:
         return np.empty(0, np.int64)
     places = unit_coordinates(points, triangulation)
-    lengths = np.sqrt(((places[end] - places[start]) ** 2).sum(axis=1))
+    lengths = np.linalg.norm(places[end] - places[start], axis=1)
     n_pieces = np.maximum(np.ceil(lengths / max(lengths.mean(), np.finfo(float).tiny)), 1).astype(
         int
     )

@@ -22,7 +22,18 @@ LIMITS_PROCESSOR_TIME = resource is not None
 
 
 def read(path: str) -> tuple[Any, str]:
-    """Return a meshio.Mesh and no reason, or None and the reason: whatever its reader raised."""
+    """Read a mesh file, whatever its reader raises.
+
+    Parameters
+    ----------
+    path : str
+
+    Returns
+    -------
+    mesh : meshio.Mesh or None
+    reason : str
+        Why there is no mesh, in a few words; empty where there is one, or meshio has printed why.
+    """
     import meshio
 
     _mend(meshio)
@@ -53,7 +64,13 @@ def _mend(meshio: Any) -> None:  # noqa: ANN401 - a module
 
 
 def limit_processor_time(seconds: float) -> None:
-    """End this process by SIGXCPU once it has used so much processor time more than by now."""
+    """Let the system end this process by SIGXCPU once it has used much processor time.
+
+    Parameters
+    ----------
+    seconds : float
+        More than it has used by now. Without effect on Windows.
+    """
     if resource is None:
         return
     limit = math.ceil(time.process_time() + seconds)

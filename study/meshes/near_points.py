@@ -1,4 +1,4 @@
-"""Points that nearly agree: found where a mesh falls apart between them, and joined.
+"""Points that nearly agree: counted where a mesh falls apart between them, and joined.
 
 Distances are relative to the extent of the mesh: the longest side of its bounding box.
 """
@@ -39,7 +39,17 @@ class NearPoints:
 
 
 def near_points(triangulation: lepp.Triangulation) -> NearPoints:
-    """Count the boundary points of a mesh that nearly agree with another."""
+    """Count the boundary points of a mesh that nearly agree with another.
+
+    Parameters
+    ----------
+    triangulation : lepp.Triangulation
+
+    Returns
+    -------
+    NearPoints
+        Points at the very same place are not counted.
+    """
     triangles = triangulation.triangles
     row, side = np.nonzero(triangulation.neighbors < 0)
     ends = np.stack((triangles[row, (side + 1) % 3], triangles[row, (side + 2) % 3]))
@@ -48,7 +58,7 @@ def near_points(triangulation: lepp.Triangulation) -> NearPoints:
         return NearPoints(0, None)
     points = unit_coordinates(triangulation.points[ids], triangulation)
     start, end = place.reshape(ends.shape)
-    lengths = np.sqrt(((points[start] - points[end]) ** 2).sum(axis=1))
+    lengths = np.linalg.norm(points[start] - points[end], axis=1)
     shortest = np.full(len(ids), np.inf)
     np.minimum.at(shortest, start, lengths)
     np.minimum.at(shortest, end, lengths)
@@ -112,7 +122,19 @@ def moved_together(points: np.ndarray, triangles: np.ndarray, within: float) -> 
 
 
 def unit_coordinates(points: np.ndarray, triangulation: lepp.Triangulation) -> np.ndarray:
-    """Return points in units of the extent of a mesh, from its middle."""
+    """Return points in units of the extent of a mesh, from its middle.
+
+    Parameters
+    ----------
+    points : (k, 2) or (k, 3) float64 ndarray
+    triangulation : lepp.Triangulation
+        With as many coordinates.
+
+    Returns
+    -------
+    float64 ndarray like points
+        Between -1/2 and 1/2 for the points that the mesh uses.
+    """
     used = triangulation.points[_used(triangulation.triangles, len(triangulation.points))]
     return _scaled(points, used.min(axis=0), used.max(axis=0))
 

@@ -186,7 +186,17 @@ def _point_notes(triangulation: lepp.Triangulation, within: float | None) -> lis
 
 
 def unused_points(triangulation: lepp.Triangulation) -> np.ndarray:
-    """Return the points that no triangle uses, those merged with another not counted."""
+    """Return the points that no triangle uses.
+
+    Parameters
+    ----------
+    triangulation : lepp.Triangulation
+
+    Returns
+    -------
+    (k,) int64 ndarray
+        Indices of points, ascending; without those merged with another.
+    """
     used = np.zeros(len(triangulation.points), bool)
     used[triangulation.triangles] = True
     used[triangulation.repeated[:, 0]] = True

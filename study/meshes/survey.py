@@ -136,11 +136,36 @@ class Survey:
 
 
 def survey(mesh: ReadMesh, *, equal_within: float = 0.0) -> Survey:
-    """Compute the paths of a mesh; `equal_within` is that of `lepp.lepp_paths`."""
+    """Compute the paths of a mesh.
+
+    Parameters
+    ----------
+    mesh : ReadMesh
+    equal_within : float
+        As for `lepp.lepp_paths`: a share of a length.
+
+    Returns
+    -------
+    Survey
+        What follows from the paths is computed when it is read.
+    """
     paths = lepp.lepp_paths(mesh.triangulation, equal_within=equal_within)
     return Survey(mesh, paths, equal_within)
 
 
 def quantile(counts: lepp.LeppCounts, share: float) -> int:
-    """Return the smallest size that at least this share of the triangles does not exceed."""
+    """Return the smallest size that a share of the triangles does not exceed.
+
+    Parameters
+    ----------
+    counts : lepp.LeppCounts
+        Not empty.
+    share : float
+        At least this share; 0 < share <= 1.
+
+    Returns
+    -------
+    int
+        In triangles.
+    """
     return int(np.searchsorted(np.cumsum(counts.counts), share * counts.count))

@@ -44,7 +44,17 @@ class Topology:
 
 
 def topology(triangulation: lepp.Triangulation) -> Topology:
-    """Count what a mesh consists of."""
+    """Count what a mesh consists of.
+
+    Parameters
+    ----------
+    triangulation : lepp.Triangulation
+
+    Returns
+    -------
+    Topology
+        As the triangles are joined: two sides of a hanging node are boundary, not joined.
+    """
     triangles, neighbors = triangulation.triangles, triangulation.neighbors
     m, n = len(triangles), len(triangulation.points)
     unused, merged = len(unused_points(triangulation)), len(triangulation.repeated)

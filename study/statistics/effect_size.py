@@ -6,12 +6,43 @@ from study.statistics.thresholds import CONFIDENCE
 
 
 def eta_squared(f: float, df1: float, df2: float) -> float:
-    """Share of the sample's variance between groups, from an F statistic."""
+    """Share of the sample's variance between groups, from an F statistic.
+
+    Parameters
+    ----------
+    f : float
+        F statistic with df1 and df2 degrees of freedom, at least 0.
+    df1, df2 : float
+        Above 0.
+
+    Returns
+    -------
+    float
+        From 0 to 1: the sum of squares between groups over that of all, f df1 / (f df1 + df2).
+    """
     return f * df1 / (f * df1 + df2)
 
 
 def omega_squared(f: float, df1: float, total: int) -> float:
-    """Share of the variance between groups with its bias corrected, from an F of `total` values."""
+    """Share of the variance between groups with its bias corrected, from an F statistic.
+
+    Parameters
+    ----------
+    f : float
+        F statistic with df1 degrees of freedom between the groups.
+    df1 : float
+    total : int
+        Number of observations.
+
+    Returns
+    -------
+    float
+        From 0 to 1; 0 where f is below 1.
+
+    Notes
+    -----
+    Hays (1963), Statistics for Psychologists: df1 (f - 1) / (df1 (f - 1) + total).
+    """
     return max(0.0, df1 * (f - 1) / (df1 * (f - 1) + total))
 
 
@@ -22,8 +53,14 @@ def population_share(f: float, df1: float, df2: float, total: int) -> tuple[floa
     ----------
     f : float
         F statistic with df1 and df2 degrees of freedom.
+    df1, df2 : float
     total : int
         Number of observations.
+
+    Returns
+    -------
+    low, high : float
+        From 0 to 1, at the level `study.statistics.thresholds.CONFIDENCE`.
 
     Notes
     -----

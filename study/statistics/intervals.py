@@ -9,7 +9,19 @@ from study.statistics.verdicts import NO, UNDECIDED, YES
 
 
 def t_quantile(df: float) -> float:
-    """Count the standard errors to each side of an estimate with df degrees of freedom."""
+    """Count the standard errors to each side of an estimate with df degrees of freedom.
+
+    Parameters
+    ----------
+    df : float
+        Above 0.
+
+    Returns
+    -------
+    float
+        The quantile of Student's t at which `study.statistics.thresholds.CONFIDENCE` lies between
+        it and its negative.
+    """
     return float(-special.stdtrit(df, (1 - CONFIDENCE) / 2))
 
 
@@ -76,7 +88,19 @@ def ratio_interval(ended: np.ndarray, reached: np.ndarray) -> tuple[float, float
 
 
 def at_least(bound: float, low: float, high: float) -> str:
-    """Whether a quantity with the interval [low, high] is at least `bound`: yes, no, undecided."""
+    """Tell whether a quantity is at least `bound`, from its interval.
+
+    Parameters
+    ----------
+    bound : float
+    low, high : float
+        The interval; NaN where there is none.
+
+    Returns
+    -------
+    str
+        `YES` where all of the interval is, `NO` where nothing of it is, else `UNDECIDED`.
+    """
     if low >= bound:
         return YES
     return NO if high < bound else UNDECIDED

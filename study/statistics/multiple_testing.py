@@ -9,11 +9,13 @@ def holm(p: np.ndarray) -> np.ndarray:
     Parameters
     ----------
     p : (m,) float64 ndarray
+        From 0 to 1; m may be 0.
 
     Returns
     -------
     (m,) float64 ndarray
-        Rejecting where these are below a level keeps the chance of any false rejection below it.
+        At most 1. Rejecting where these are below a level keeps the chance of any false rejection
+        below it.
 
     Notes
     -----

@@ -14,6 +14,18 @@ _TINY = 1e-290
 def log10_f_tail(f: float, df1: float, df2: float) -> float:
     """log10 P(F > f) of the F distribution with df1 and df2 degrees of freedom.
 
+    Parameters
+    ----------
+    f : float
+        At least 0.
+    df1, df2 : float
+        Above 0.
+
+    Returns
+    -------
+    float
+        At most 0.
+
     Notes
     -----
     P(F > f) = I_x(df2 / 2, df1 / 2) with x = df2 / (df2 + df1 f), Abramowitz and Stegun 26.6.2.
@@ -23,6 +35,18 @@ def log10_f_tail(f: float, df1: float, df2: float) -> float:
 
 def log10_t_tail(t: float, df: float) -> float:
     """log10 P(T > t) of Student's t distribution with df degrees of freedom.
+
+    Parameters
+    ----------
+    t : float
+        Of either sign.
+    df : float
+        Above 0.
+
+    Returns
+    -------
+    float
+        At most 0.
 
     Notes
     -----
@@ -36,6 +60,18 @@ def log10_t_tail(t: float, df: float) -> float:
 
 def log10_chi2_tail(x: float, df: float) -> float:
     """log10 P(X > x) of the chi-squared distribution with df degrees of freedom.
+
+    Parameters
+    ----------
+    x : float
+        At least 0.
+    df : float
+        Above 0.
+
+    Returns
+    -------
+    float
+        At most 0.
 
     Notes
     -----

@@ -19,7 +19,7 @@ class Controls {
     for (const button of host.querySelectorAll("button")) {
       button.addEventListener("click", () => page.act(button.dataset.do));
     }
-    page.input.addEventListener("change", () => page.ask(page.input.value));
+    page.input.addEventListener("change", () => page.chooseNumber(page.input.value));
   }
 
   wireStage() {

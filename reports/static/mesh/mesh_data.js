@@ -9,6 +9,8 @@
  * @property {[number, number][]} classes first and last LEPP size of each shade
  * @property {number} worst place of the triangle with the longest path
  * @property {number} total triangles of the whole mesh
+ * @property {string} name of the mesh's file, without its extension
+ * @property {Record<string, { header: string, counts: [number, number][] }>} histograms
  */
 
 /**
@@ -104,7 +106,7 @@ class MeshData {
   }
 
   /**
-   * The triangles at every edge; made when it is first asked for.
+   * The triangles at every edge; made when it is first needed.
    * @type {Map<number, number[]>}
    */
   get trianglesByEdge() {

@@ -1,16 +1,19 @@
 // The page of one mesh: what is drawn, which triangle is chosen, and the start.
 
-const NOTICED = 60; // pixels: what is smaller would be overlooked
+const NOTICED = 90; // pixels: what is smaller would be overlooked
 
 class MeshPage {
   /**
    * @param {HTMLElement} host
    * @param {MeshData} mesh
+   * @param {string} name of the files that a reader saves
    */
-  constructor(host, mesh) {
+  constructor(host, mesh, name) {
     this.mesh = mesh;
+    this.name = name;
     this.stage = /** @type {HTMLElement} */ (host.querySelector(".stage"));
-    this.sentence = /** @type {HTMLElement} */ (host.querySelector(".said"));
+    this.sentence = /** @type {HTMLElement} */ (host.querySelector(".sentence"));
+    this.link = /** @type {HTMLAnchorElement} */ (host.querySelector("a.link"));
     this.input = /** @type {HTMLInputElement} */ (host.querySelector("input"));
     this.projection = new Projection(mesh);
     this.painter = new Painter(this.stage, this.projection);
@@ -57,6 +60,8 @@ class MeshPage {
     const number = String(this.mesh.numbers[t]);
     this.sentence.textContent = pathSentence(this.mesh, t);
     this.stage.dataset.chosen = number;
+    this.link.href = `#triangle=${number}`;
+    this.link.textContent = `Link to triangle ${grouped(this.mesh.numbers[t])}`;
     if (document.activeElement !== this.input) this.input.value = number;
     if (!this.frame) this.painter.paintPath(t);
   }
@@ -85,7 +90,7 @@ class MeshPage {
    * Choose a triangle by the number that it has in the whole mesh.
    * @param {string} number
    */
-  ask(number) {
+  chooseNumber(number) {
     const place = number.trim() ? this.mesh.placeOf(Number(number)) : -1;
     if (place < 0) {
       this.sentence.textContent = absentSentence(this.mesh, number);
@@ -96,10 +101,27 @@ class MeshPage {
     this.draw();
   }
 
+  /** Choose the triangle that the page's address names, if it names one, and bring it into view. */
+  followAddress() {
+    const named = /^#triangle=(.*)$/.exec(location.hash);
+    if (!named) return;
+    this.chooseNumber(named[1]);
+    this.stage.scrollIntoView({ block: "center" });
+  }
+
+  /** Save the drawing as it is in view. */
+  savePicture() {
+    this.painter.picture(this.chosen).toBlob((picture) => {
+      if (picture) save(`${this.name}-lepp.png`, picture);
+    });
+  }
+
   /** @param {string | undefined} what a button does */
   act(what) {
     const { projection, mesh } = this;
-    if (what === "whole") projection.fit();
+    if (what === "csv") saveCsv(`${this.name}-triangles.csv`, trianglesCsv(mesh));
+    else if (what === "png") this.savePicture();
+    else if (what === "whole") projection.fit();
     else if (what === "worst") {
       const { path } = mesh.path(mesh.worst);
       this.choose(mesh.worst);
@@ -154,12 +176,25 @@ class MeshPage {
   }
 }
 
+/** @param {MeshAbout} about */
+function wireHistograms({ name, histograms }) {
+  for (const button of document.querySelectorAll("button[data-histogram]")) {
+    const which = /** @type {HTMLElement} */ (button).dataset.histogram ?? "";
+    const { header, counts } = histograms[which];
+    button.addEventListener("click",
+      () => saveCsv(`${name}-${which}.csv`, countsCsv(header, counts)));
+  }
+}
+
 async function start() {
   const host = /** @type {HTMLElement} */ (document.querySelector(".mesh"));
   const about = JSON.parse(document.getElementById("mesh-drawing")?.textContent ?? "");
   const mesh = new MeshData(about, await inflate("mesh-data").arrayBuffer());
-  const page = new MeshPage(host, mesh);
+  const page = new MeshPage(host, mesh, about.name);
   new Controls(host, page);
+  wireHistograms(about);
+  page.followAddress();
+  addEventListener("hashchange", () => page.followAddress());
   wireTheme(() => page.draw());
   printInLight(() => page.drawNow(), () => page.draw());
   document.documentElement.dataset.ready = "mesh";

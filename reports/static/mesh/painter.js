@@ -5,6 +5,9 @@ const FEW = 6000; // triangles of which every frame shows the edges, even while 
 const MANY = 12000; // triangles in view that are no longer drawn as shapes, but pixel by pixel
 const LINE = 5; // a triangle of so many pixels is large enough for its edges
 const LABEL = 22; // and of so many for its place on the path
+const OUTLINE = 3; // pixels of ink around the path, half of them outside
+const RING = 12; // radius of the ring around the chosen triangle where that is small
+const PRINTED = 2; // pixels of a picture to one of the screen, at least
 
 /**
  * @typedef {object} Palette
@@ -32,15 +35,36 @@ class Painter {
     this.palette = this.colors();
   }
 
-  /** Take the stage's size. */
-  resize() {
+  /**
+   * Take the stage's size.
+   * @param {number} ratio of the canvas's pixels to the screen's
+   */
+  resize(ratio = devicePixelRatio || 1) {
     const { clientWidth, clientHeight } = this.stage;
-    this.ratio = devicePixelRatio || 1;
+    this.ratio = ratio;
     for (const canvas of [this.canvas, this.overlay]) {
       canvas.width = Math.round(clientWidth * this.ratio);
       canvas.height = Math.round(clientHeight * this.ratio);
     }
     this.projection.resize(clientWidth, clientHeight);
+  }
+
+  /**
+   * A picture of what is in view, on the stage's background.
+   * @param {number} chosen
+   */
+  picture(chosen) {
+    this.resize(Math.max(PRINTED, devicePixelRatio || 1));
+    this.paintMesh(false);
+    this.paintPath(chosen);
+    const picture = document.createElement("canvas");
+    Object.assign(picture, { width: this.canvas.width, height: this.canvas.height });
+    const pen = /** @type {CanvasRenderingContext2D} */ (picture.getContext("2d"));
+    pen.fillStyle = getComputedStyle(this.stage).backgroundColor;
+    pen.fillRect(0, 0, picture.width, picture.height);
+    for (const canvas of [this.canvas, this.overlay]) pen.drawImage(canvas, 0, 0);
+    this.resize();
+    return picture;
   }
 
   /**
@@ -128,19 +152,24 @@ class Painter {
   }
 
   /**
-   * The path of a triangle, its own and the terminal edge brought out.
+   * The path of a triangle, the triangle itself and the terminal edge brought out.
    * @param {number} chosen
    */
   paintPath(chosen) {
     const { palette } = this;
     const pen = this.penOf(this.overlay);
     const { path, edge } = this.mesh.path(chosen);
+    const outline = new Path2D();
+    for (const t of path) this.trace(outline, t);
+    pen.strokeStyle = palette.ink;
+    pen.lineWidth = OUTLINE;
+    pen.stroke(outline); // what of it lies on the path is painted over
     for (const t of [...path].reverse()) {
       const shape = new Path2D();
       this.trace(shape, t);
       pen.fillStyle = palette.surface;
       pen.fill(shape);
-      pen.globalAlpha = t === chosen ? 1 : 0.55;
+      pen.globalAlpha = t === chosen ? 1 : 0.7;
       pen.fillStyle = palette.path;
       pen.fill(shape);
       pen.globalAlpha = 1;
@@ -151,6 +180,22 @@ class Painter {
     }
     if (edge.length) this.paintTerminalEdge(pen, edge);
     this.paintPlaces(pen, path);
+    if (this.projection.breadth(chosen) < LABEL) this.paintRing(pen, chosen);
+  }
+
+  /**
+   * Lead the eye to a small triangle.
+   * @param {CanvasRenderingContext2D} pen
+   * @param {number} t
+   */
+  paintRing(pen, t) {
+    const ring = new Path2D();
+    ring.arc(...this.projection.center(t), RING, 0, 2 * Math.PI);
+    for (const [color, width] of /** @type {const} */ ([["surface", 5], ["ink", 2]])) {
+      pen.strokeStyle = this.palette[color];
+      pen.lineWidth = width;
+      pen.stroke(ring);
+    }
   }
 
   /**

@@ -10,7 +10,7 @@ class Projection {
   /** @param {MeshData} mesh */
   constructor(mesh) {
     this.mesh = mesh;
-    /** Of every point, in pixels; z, towards the reader, in the mesh's own units. */
+    /** Of every point, in pixels; z, towards the reader, in the mesh's units. */
     this.x = new Float32Array(mesh.n);
     this.y = new Float32Array(mesh.n);
     this.z = new Float32Array(mesh.n);

@@ -26,16 +26,16 @@ function pathSentence(mesh, t) {
 }
 
 /**
- * Why a triangle that was asked for cannot be shown.
+ * Why the triangle with a number cannot be shown.
  * @param {MeshData} mesh
- * @param {string} asked
+ * @param {string} text of the number, as the reader wrote it
  */
-function absentSentence(mesh, asked) {
-  const number = asked.trim() ? Number(asked) : NaN;
+function absentSentence(mesh, text) {
+  const number = text.trim() ? Number(text) : NaN;
   if (Number.isInteger(number) && number >= 0 && number < mesh.total) {
     return `Triangle ${grouped(number)} is not among the ${grouped(mesh.m)} that are drawn.`;
   }
-  const none = asked.trim() ? `There is no triangle ${asked.trim()}.` : "No number was given.";
+  const none = text.trim() ? `There is no triangle ${text.trim()}.` : "No number was given.";
   return `${none} The mesh has ${grouped(mesh.total)} triangles, numbered from 0 to `
     + `${grouped(mesh.total - 1)}.`;
 }

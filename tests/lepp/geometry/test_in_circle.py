@@ -60,6 +60,19 @@ def test_each_term_of_the_permanent_counts(scale):
         assert in_circle(*second, *first, *third, 0.0, 0.0) == -inside
 
 
+@pytest.mark.parametrize("exponent", range(-20, 21))
+@pytest.mark.parametrize("long", [8192.0, 4097.0])
+def test_small_integers_decide_at_any_scale(exponent, long):
+    """Steps along a diagonal beside (0, 0): the determinant is 4, of terms of some 2**54."""
+    line = np.array([(long, long - 1), (long + 1, long), (long - 1, long - 2)])
+    inside = sign_of_circle(line.ravel())
+    assert inside != 0
+    for order in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        numbers = np.ldexp(line[[*order]], exponent)
+        assert in_circle(*numbers.ravel(), 0.0, 0.0) == inside
+        assert in_circle(*numbers[::-1].ravel(), 0.0, 0.0) == -inside
+
+
 @pytest.mark.parametrize("scale", [1.0, -1.0, 2.0**-200, 2.0**300, 2.0**-600, 2.0**600])
 def test_lines_through_small_integers(scale):
     line = np.array([(-3.0, -1.0), (3.0, 1.0), (9.0, 3.0)]) * scale

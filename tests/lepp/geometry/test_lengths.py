@@ -36,9 +36,10 @@ def assert_ranks_are_exact(points, within):
 
 
 @pytest.mark.parametrize("name", aimed.EDGES)
-def test_ranks_are_exact_where_rounding_is_worst(name):
+@pytest.mark.parametrize("scale", [1.0, 2.0**-40, 2.0**40])
+def test_ranks_are_exact_where_rounding_is_worst(name, scale):
     within, points = aimed.EDGES[name]
-    assert_ranks_are_exact(aimed.read(points), float.fromhex(within))
+    assert_ranks_are_exact(scale * aimed.read(points), float.fromhex(within))
 
 
 @st.composite

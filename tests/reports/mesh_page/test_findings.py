@@ -48,7 +48,7 @@ def test_random_delaunay_is_mentioned_where_it_helps() -> None:
     assert sentence in findings.regions(large)
     assert "Delaunay" not in findings.regions(small)
     label = "Triangles in terminal pairs"
-    assert _values(large)[label][1] == "30.1\u00a0% in random Delaunay meshes"
+    assert _values(large)[label][1] == "30.1\u00a0% in Delaunay meshes of random points"
     assert "Delaunay" not in str(_values(small))
 
 
@@ -81,3 +81,17 @@ def test_ties_are_counted_in_words() -> None:
     assert findings.ties(_random(100, "delaunay")) == (
         "No triangle has two equal longest edges, or nearly equal ones."
     )
+
+
+def test_numbers_that_hanging_nodes_falsify_say_so() -> None:
+    points = np.array([[0, 0], [2, 0], [2, 2], [0, 2], [4, 0], [4, 2], [2, 1.0]])
+    left, right = [[0, 1, 2], [0, 2, 3]], [[1, 4, 6], [4, 5, 6], [6, 5, 2]]
+    hanging = dict(findings.facts(_survey(lepp.Triangulation.from_arrays(points, left + right))))
+    cut = " (as cut at the hanging nodes)"
+    assert hanging["Pieces"] == f"2, between which no path goes{cut}"
+    assert hanging["Holes"] == f"1{cut}"
+    assert hanging["Boundary"].endswith(cut)
+    assert "hanging" not in hanging["Triangles"]
+    whole = findings.facts(_survey(lepp.Triangulation.from_arrays(points[:4], left)))
+    assert "hanging" not in str(whole)
+    assert dict(whole)["Holes"] == "0"

@@ -164,7 +164,7 @@ def open_mesh(browser: Browser, tmp_path: Path) -> Iterator[Callable[..., Page]]
     contexts = []
     complaints: list[str] = []
 
-    def open_page(found: Survey, **options: object) -> Page:
+    def open_page(found: Survey, address: str = "", **options: object) -> Page:
         path = tmp_path / "mesh.html"
         path.write_text(render(found), encoding="utf-8")
         options.setdefault("viewport", {"width": 1280, "height": 1000})
@@ -174,7 +174,7 @@ def open_mesh(browser: Browser, tmp_path: Path) -> Iterator[Callable[..., Page]]
         page.on("console", lambda m: complaints.append(f"{m.type}: {m.text}"))
         page.on("pageerror", lambda error: complaints.append(f"error: {error}"))
         page.on("request", lambda request: complaints.append(request.url))
-        page.goto(path.as_uri())
+        page.goto(path.as_uri() + address)
         page.wait_for_selector(".stage[data-drawn]")
         page.locator(".stage").scroll_into_view_if_needed()
         assert complaints.pop(0) == path.as_uri()
@@ -217,14 +217,14 @@ def test_pointing_at_a_triangle_names_its_path(open_mesh: Callable, plane: Surve
     for t in range(0, len(own), 17):
         page.mouse.move(*centers[t])
         assert chosen(page) == t
-        said = page.locator(".said").inner_text()
+        said = page.locator(".sentence").inner_text()
         assert said.startswith(f"Triangle {t}: LEPP size {plane.paths.sizes[t]}.")
     path = page.locator("canvas").nth(1).evaluate("canvas => canvas.toDataURL()")
     page.mouse.move(*centers[plane.worst_path[0]])
     assert page.locator("canvas").nth(1).evaluate("canvas => canvas.toDataURL()") != path
     names = " → ".join(f"{t:,}" for t in plane.worst_path)
     if len(plane.worst_path) <= 12:
-        assert names in page.locator(".said").inner_text()
+        assert names in page.locator(".sentence").inner_text()
 
 
 @pytest.mark.browser
@@ -266,7 +266,7 @@ def test_a_triangle_can_be_asked_for_and_the_drawing_moved(
     for number in ("99999", "-1"):
         page.get_by_label("Triangle", exact=True).fill(number)
         page.keyboard.press("Enter")
-        said = page.locator(".said").inner_text()
+        said = page.locator(".sentence").inner_text()
         assert said.startswith(f"There is no triangle {number}.")
         assert f"from 0 to {len(plane.triangulation) - 1}." in said
         assert chosen(page) == 41
@@ -286,11 +286,79 @@ def test_of_a_part_the_button_and_the_field_know_the_whole(
     absent = np.setdiff1d(np.arange(len(plane.triangulation)), drawn)[0]
     page.get_by_label("Triangle", exact=True).fill(str(absent))
     page.keyboard.press("Enter")
-    said = page.locator(".said").inner_text()
+    said = page.locator(".sentence").inner_text()
     assert said == f"Triangle {absent} is not among the 60 that are drawn."
     page.get_by_label("Triangle", exact=True).fill(str(len(plane.triangulation)))
     page.keyboard.press("Enter")
-    assert page.locator(".said").inner_text().startswith("There is no triangle")
+    assert page.locator(".sentence").inner_text().startswith("There is no triangle")
+
+
+@pytest.mark.browser
+def test_a_link_opens_at_its_triangle(open_mesh: Callable, plane: Survey) -> None:
+    page = open_mesh(plane, address="#triangle=41")
+    assert chosen(page) == 41
+    link = page.locator("a.link")
+    assert link.get_attribute("href") == "#triangle=41"
+    assert link.inner_text() == "Link to triangle 41"
+    page.locator(".stage").focus()
+    page.keyboard.press("Home")
+    assert link.get_attribute("href") == "#triangle=0"
+    link.click()
+    assert page.evaluate("location.hash") == "#triangle=0"
+    page.evaluate("location.hash = '#triangle=17'")
+    page.wait_for_selector(".stage[data-chosen='17']")
+    page.evaluate("location.hash = '#triangle=9999'")
+    page.wait_for_function(
+        "document.querySelector('.sentence').textContent.includes('no triangle')"
+    )
+    assert chosen(page) == 17
+    page.evaluate("location.hash = '#spread'")  # a section, of no triangle
+    assert chosen(page) == 17
+
+
+@pytest.mark.browser
+def test_what_is_drawn_can_be_saved(open_mesh: Callable, plane: Survey, tmp_path: Path) -> None:
+    page = open_mesh(plane)
+
+    def saved(name: str) -> tuple[str, bytes]:
+        with page.expect_download() as waiting:
+            page.get_by_role("button", name=name).click()
+        waiting.value.save_as(tmp_path / "saved")
+        return waiting.value.suggested_filename, (tmp_path / "saved").read_bytes()
+
+    name, triangles = saved("The triangles drawn as CSV")
+    assert name.endswith("-triangles.csv")
+    head, *rows = triangles.decode().splitlines()
+    assert head == "triangle,lepp_size,next_triangle,ends_at"
+    assert [row.split(",")[:2] for row in rows] == [
+        [str(t), str(size)] for t, size in enumerate(plane.paths.sizes)
+    ]
+    ends = {lepp.TYPE_NONE: "boundary", lepp.TYPE_C: "pair"}
+    for t, row in enumerate(rows):
+        _, _, following, end = row.split(",")
+        assert int(following or -1) == plane.paths.successors[t]
+        assert end == ends.get(plane.paths.neighbor_types[t], "")
+
+    name, sizes = saved("Triangles by the size of their path: CSV")
+    assert name.endswith("-sizes.csv")
+    counts = np.bincount(plane.paths.sizes)
+    counted = [f"{size},{counts[size]}" for size in np.flatnonzero(counts)]
+    assert sizes.decode().splitlines() == ["lepp_size,triangles", *counted]
+    name, regions = saved("Terminal-edge regions by their size: CSV")
+    assert name.endswith("-regions.csv")
+    rows = [row.split(",") for row in regions.decode().splitlines()[1:]]
+    assert sum(int(size) * int(n) for size, n in rows) == len(plane.triangulation)
+
+    before = picture(page)
+    name, drawing = saved("The drawing as PNG")
+    assert name.endswith("-lepp.png")
+    assert drawing.startswith(b"\x89PNG")
+    box = page.locator(".stage").bounding_box()
+    assert box
+    width, height = (int.from_bytes(drawing[k : k + 4], "big") for k in (16, 20))
+    assert abs(width - 2 * box["width"]) <= 2
+    assert abs(height - 2 * box["height"]) <= 2
+    assert picture(page) == before
 
 
 @pytest.mark.browser
@@ -306,7 +374,7 @@ def test_paths_between_equal_edges_are_as_long_as_their_sizes(
     for t in range(len(found.triangulation)):
         page.get_by_label("Triangle", exact=True).fill(str(t))
         page.keyboard.press("Enter")
-        said = page.locator(".said").inner_text()
+        said = page.locator(".sentence").inner_text()
         path = [t]
         while len(path) < paths.sizes[t]:
             path.append(int(paths.successors[path[-1]]))
@@ -398,6 +466,8 @@ def test_it_fits_and_follows_the_theme(
 ) -> None:
     page = open_mesh(surface, color_scheme=scheme, viewport={"width": width, "height": 900})
     assert page.evaluate("document.documentElement.scrollWidth") == width
+    for histogram in page.locator(".scroll:has(.histogram)").all():
+        assert histogram.evaluate("table => table.scrollWidth - table.clientWidth") == 0
     before = picture(page)
     theme = page.locator("#theme")
     other = "Dark" if scheme == "light" else "Light"

@@ -1,3 +1,6 @@
+"""Shares of variance against the noncentral F distribution, and how often they hold the truth."""
+
+import numpy as np
 import pytest
 from scipy import stats
 
@@ -18,3 +21,15 @@ def test_interval_inverts_the_noncentral_f_distribution(f):
 
 def test_no_effect_has_an_interval_from_zero():
     assert population_share(0.5, 19, 780, 800)[0] == 0
+
+
+def test_shares_of_variance_hold_19_times_of_20():
+    rng = np.random.default_rng(3)
+    means, n = np.linspace(0, 1, 5), 12
+    share = means.var() / (means.var() + 1)
+    covered = []
+    for values in rng.normal(means[:, None], 1, (500, 5, n)):
+        f = n * values.mean(axis=1).var(ddof=1) / values.var(axis=1, ddof=1).mean()
+        low, high = population_share(f, 4, 5 * (n - 1), 5 * n)
+        covered.append(low <= share <= high)
+    assert np.mean(covered) == pytest.approx(0.95, abs=0.03)
