@@ -9,7 +9,6 @@ interface PlotlyHost extends HTMLElement {
 
 declare const Plotly: {
   react(host: HTMLElement, data: object[], layout: object, config: object): void;
-  relayout(host: HTMLElement, layout: object): void;
 };
 
 interface Window {

@@ -1,5 +1,6 @@
 """The page in a real browser: drawn, switched, linked, explored, downloaded and printed."""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -8,13 +9,21 @@ from conftest import draw_all
 from playwright.sync_api import Page
 from tiny_runs import DESIGN
 
+from reports.page import plotly
 from reports.study_page.gather import gather
 from reports.text.numbers import show
 
 pytestmark = pytest.mark.browser
 
 Open = Callable[..., Page]
+MOST_PAGES = 25
 SECOND = DESIGN.distributions[1]
+#: Lengths of the tasks longer than 50 ms, in milliseconds.
+LONG_TASKS = """new Promise(resolve => {
+    new PerformanceObserver(list => resolve(list.getEntries().map(e => Math.round(e.duration))))
+        .observe({ type: 'longtask', buffered: true });
+    setTimeout(() => resolve([]), 200);
+})"""
 
 
 def shown_rows(page: Page, table: str) -> list[list[str]]:
@@ -41,23 +50,65 @@ def test_everything_is_drawn_and_fits(open_report: Open, width: int) -> None:
         assert table.locator("tbody tr").count() > 0, table.get_attribute("data-table")
 
 
-def test_text_and_tables_do_not_wait_for_plots(open_report: Open) -> None:
+def drawn_figures(page: Page) -> list[str]:
+    return page.evaluate(
+        """[...document.querySelectorAll('[data-figure]')]
+            .filter(host => host.querySelector('.main-svg')).map(host => host.dataset.figure)"""
+    )
+
+
+def near_figures(page: Page) -> list[str]:
+    """Figures at most 600 pixels above or below the window."""
+    return page.evaluate(
+        """[...document.querySelectorAll('[data-figure]')].filter(host => {
+            const { top, bottom } = host.getBoundingClientRect();
+            return !host.hidden && bottom > -600 && top < innerHeight + 600;
+        }).map(host => host.dataset.figure)"""
+    )
+
+
+def test_plotly_runs_when_a_figure_is_near_and_draws_no_other(
+    open_report: Open, capsys: pytest.CaptureFixture[str]
+) -> None:
     page = open_report()
     order = page.evaluate("performance.getEntriesByType('mark').map(mark => mark.name)")
     assert order == ["tables", "figures"]
+    assert page.locator(".explorer polygon").count() > 50
+    assert page.evaluate("scrollY") == 0
+    assert near_figures(page) == []
+    page.wait_for_timeout(500)  # long enough to draw them all
+    assert page.evaluate("typeof Plotly") == "undefined"
+    lengths = page.evaluate(LONG_TASKS)
+    ready = page.evaluate("Math.round(performance.getEntriesByName('tables')[0].startTime)")
+    with capsys.disabled():
+        print(
+            f"\n  page: tables after {ready} ms; longest task {max(lengths, default=0)} ms, total "
+            f"blocking time {sum(length - 50 for length in lengths)} ms before scrolling"
+        )
+    hosts = page.locator("[data-figure]")
+    hosts.nth(hosts.count() // 2).scroll_into_view_if_needed()
+    page.wait_for_function("window.Plotly && document.querySelector('.main-svg')")
+    page.wait_for_timeout(500)
+    assert drawn_figures(page) == near_figures(page)
+    assert 0 < len(drawn_figures(page)) < hosts.count()
+    kinds = page.evaluate("Object.keys(Plotly.PlotSchema.get().traces)")
+    assert sorted(kinds) == sorted(plotly.TRACES)
 
 
 def test_switch_acts_on_the_whole_page_and_on_the_address(open_report: Open) -> None:
     page = open_report()
     draw_all(page)
     before = (page.locator(".finding:visible").all_inner_texts(), shown_rows(page, "table_4"))
+    page.locator("[data-figure=figure-4]").scroll_into_view_if_needed()
     drawn = page.evaluate("document.querySelector('[data-figure=figure-4]').data[0].y[0]")
     page.get_by_role("radio", name="Bivariate normal").check()
     assert f"distribution={SECOND}" in page.url
     after = (page.locator(".finding:visible").all_inner_texts(), shown_rows(page, "table_4"))
     assert before[0] != after[0]
     assert before[1] != after[1]
-    assert page.evaluate("document.querySelector('[data-figure=figure-4]').data[0].y[0]") != drawn
+    page.wait_for_function(
+        f"document.querySelector('[data-figure=figure-4]').data[0].y[0] !== {drawn}"
+    )
     assert "Bivariate normal" in page.locator("#announcement").inner_text()
     page.go_back()
     page.wait_for_function("document.body.dataset.view.endsWith('/uniform')")
@@ -190,15 +241,16 @@ def test_the_script_asks_for_no_column_that_is_not_there(open_report: Open) -> N
 
 
 def test_dark_theme_follows_the_system_and_the_button(open_report: Open) -> None:
-    def paint(page: Page) -> tuple[str, str]:
-        return page.evaluate(
-            """() => [getComputedStyle(document.body).backgroundColor,
-                document.querySelector('[data-figure=figure-4]').layout.font.color]"""
-        )
+    colors = """() => [getComputedStyle(document.body).backgroundColor,
+        document.querySelector('[data-figure=figure-4]').layout.font.color]"""
+
+    def paint(page: Page) -> list[str]:
+        draw_all(page)
+        page.locator("[data-figure=figure-4]").scroll_into_view_if_needed()
+        page.wait_for_timeout(300)  # those near are drawn one by one
+        return page.evaluate(colors)
 
     light, dark = open_report(color_scheme="light"), open_report(color_scheme="dark")
-    draw_all(light)
-    draw_all(dark)
     lit, unlit = paint(light), paint(dark)
     assert lit[0] != unlit[0]
     assert lit[1] != unlit[1]
@@ -206,33 +258,38 @@ def test_dark_theme_follows_the_system_and_the_button(open_report: Open) -> None
     assert paint(light) == unlit
     light.reload()
     light.wait_for_selector("html[data-ready='figures']", state="attached")
-    draw_all(light)
     assert paint(light) == unlit
 
 
-def test_print_has_every_fold_and_figure(open_report: Open, tmp_path: Path) -> None:
+def test_a_figure_that_was_far_away_follows_the_theme_when_it_comes_near(
+    open_report: Open,
+) -> None:
+    page = open_report(color_scheme="light")
+    draw_all(page)  # and go back to the top
+    color = "document.querySelector('[data-figure=figure-4]').layout.font.color"
+    before = page.evaluate(color)
+    page.get_by_role("button", name="Dark").click()
+    page.wait_for_timeout(300)
+    assert page.evaluate(color) == before
+    page.locator("[data-figure=figure-4]").scroll_into_view_if_needed()
+    page.wait_for_function(f"{color} !== '{before}'")
+
+
+def test_a_print_out_has_every_figure_in_light(open_report: Open, tmp_path: Path) -> None:
     page = open_report(color_scheme="dark")
-    folds = page.locator("details").count()
-    assert page.locator("details[open]").count() == 0
+    assert page.evaluate("typeof Plotly") == "undefined"  # printing runs it
     page.evaluate("dispatchEvent(new Event('beforeprint'))")
-    assert page.locator("details[open]").count() == folds
-    assert page.evaluate(
-        "[...document.querySelectorAll('[data-table]')].every(h => h.querySelector('tbody tr td'))"
-    )
-    assert page.evaluate(
-        "[...document.querySelectorAll('[data-figure]')].every(h => h.querySelector('.main-svg'))"
-    )
-    colors = page.evaluate("document.querySelector('[data-figure=figure-4]').layout.font.color")
-    page.evaluate("dispatchEvent(new Event('afterprint'))")
     assert page.locator("details[open]").count() == 0
-    assert (
-        page.evaluate("document.querySelector('[data-figure=figure-4]').layout.font.color")
-        != colors
-    )
+    assert len(drawn_figures(page)) == page.locator("[data-figure]:visible").count()
+    color = "document.querySelector('[data-figure=figure-4]').layout.font.color"
+    light = page.evaluate(color)
+    page.evaluate("dispatchEvent(new Event('afterprint'))")
+    page.locator("[data-figure=figure-4]").scroll_into_view_if_needed()
+    page.wait_for_function(f"{color} !== '{light}'")
     pdf = tmp_path / "report.pdf"
     page.pdf(path=pdf, prefer_css_page_size=True)
-    assert pdf.read_bytes().startswith(b"%PDF")
-    assert pdf.stat().st_size > 100_000
+    pages = len(re.findall(rb"/Type\s*/Page\b", pdf.read_bytes()))
+    assert 5 < pages <= MOST_PAGES
 
 
 def test_keyboard_reaches_the_page(open_report: Open) -> None:
