@@ -11,6 +11,15 @@ const HEIGHT_ON_PAPER = 0.8;
 /** Let the browser paint and answer the reader. */
 const nextTask = () => new Promise((resolve) => setTimeout(resolve));
 
+/**
+ * The height of a plot at a width: less where its panels keep their shape.
+ * @param {{ height: number, meta?: { ratio: number } }} layout
+ * @param {number} width
+ */
+function heightAt({ height, meta }, width) {
+  return meta ? Math.min(height, Math.round(meta.ratio * width)) : height;
+}
+
 class Figures {
   /**
    * @param {ReportData} report
@@ -88,6 +97,8 @@ class Figures {
     layout.dragmode = matchMedia("(pointer: coarse)").matches ? false : "zoom";
     layout.width = this.width;
     if (this.width) layout.height *= HEIGHT_ON_PAPER;
+    layout.height = heightAt(layout, this.width ?? host.clientWidth);
+    host.style.minHeight = "0";
     Plotly.react(host, data, layout, CONFIG);
     // The finding below the plot says what it shows; its tick labels would only be noise.
     for (const drawing of host.querySelectorAll(".main-svg")) drawing.setAttribute("aria-hidden", "true");

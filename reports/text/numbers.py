@@ -43,7 +43,7 @@ def show(value: object, how: str) -> str:
     if kind == "fixed":
         return _signed(f"{number:,.{digits}f}")
     if kind == "percent":
-        return _signed(f"{100 * number:,.{digits}f}") + f"{_SPACE}%"
+        return percent(number, digits)
     if kind == "p":
         return p_value(number)
     if kind == "log10p":
@@ -67,6 +67,11 @@ def significant(number: float, digits: int) -> str:
     if -4 <= power < 6:
         return _signed(f"{number:,.{max(0, digits - 1 - power)}f}")
     return f"{_signed(mantissa)}{_TIMES}{ten_to(power)}"
+
+
+def percent(share: float, digits: int) -> str:
+    """Write a share times 100, with so many decimals."""
+    return _signed(f"{100 * share:,.{digits}f}") + f"{_SPACE}%"
 
 
 def p_value(p: float) -> str:
