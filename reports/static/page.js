@@ -190,6 +190,7 @@ async function start() {
   wireTheme(() => figures.update());
   wirePrinter(report, figures);
   figures.watch();
+  new FigureDownloads(figures, report, () => view);
   await idle();
   await figures.prepare();
   settle("figures");

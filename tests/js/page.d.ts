@@ -9,6 +9,7 @@ interface PlotlyHost extends HTMLElement {
 
 declare const Plotly: {
   react(host: HTMLElement, data: object[], layout: object, config: object): void;
+  toImage(figure: object, options: object): Promise<string>;
 };
 
 interface Window {

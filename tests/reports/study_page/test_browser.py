@@ -1,8 +1,11 @@
 """The page in a real browser: drawn, switched, linked, explored, downloaded and printed."""
 
+import base64
 import re
+import struct
 from collections.abc import Callable
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 from conftest import draw_all
@@ -16,6 +19,17 @@ from reports.text.numbers import show
 pytestmark = pytest.mark.browser
 
 Open = Callable[..., Page]
+#: Colour of an image's upper right corner, which no drawing reaches.
+CORNER = """async (bytes) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${bytes}`;
+    await image.decode();
+    const canvas = document.createElement('canvas');
+    [canvas.width, canvas.height] = [image.width, image.height];
+    const context = canvas.getContext('2d');
+    context.drawImage(image, 0, 0);
+    return [...context.getImageData(image.width - 1, 0, 1, 1).data];
+}"""
 MOST_PAGES = 25
 SECOND = DESIGN.distributions[1]
 #: Lengths of the tasks longer than 50 ms, in milliseconds.
@@ -205,6 +219,54 @@ def test_csv_downloads_are_the_files_on_disk(open_report: Open, report: Path) ->
         assert started.value.suggested_filename == f"{name}.csv"
         on_disk = report.parent / "tables" / f"{name}.csv"
         assert Path(started.value.path()).read_bytes() == on_disk.read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("scheme", "figure"),
+    [("light", "figure-1"), ("dark", "figure-2"), ("light", "figure-4"), ("dark", "figure-pairs")],
+)
+def test_a_figure_can_be_saved_in_the_theme_of_the_page(
+    open_report: Open, scheme: str, figure: str
+) -> None:
+    page = open_report(color_scheme=scheme, viewport={"width": 390, "height": 800})
+    place = page.locator(f"#{figure}")
+    view = "" if figure == "figure-2" else f"-uniform-{DESIGN.methods[0]}"
+    title = " ".join(place.locator("h4").inner_text().split())
+    paper = page.evaluate("getComputedStyle(document.body).backgroundColor")
+
+    def saved(kind: str) -> tuple[str, bytes]:
+        with page.expect_download() as started:
+            place.locator(f"button[data-save={kind}]").first.click()
+        return started.value.suggested_filename, Path(started.value.path()).read_bytes()
+
+    name, text = saved("svg")
+    assert name == f"lepp-{figure}{view}.svg"
+    drawing = ElementTree.fromstring(text)
+    assert drawing.tag == "{http://www.w3.org/2000/svg}svg"
+    assert drawing[0].get("fill") == paper
+    assert drawing[1].text == title
+    assert b"var(--" not in text
+    name, pixels = saved("png")
+    assert name == f"lepp-{figure}{view}.png"
+    width, height = struct.unpack(">II", pixels[16:24])
+    assert (width, height) == tuple(
+        2 * float(drawing.get(side, "")) for side in ("width", "height")
+    )
+    corner = page.evaluate(CORNER, base64.b64encode(pixels).decode())
+    assert f"rgb({', '.join(map(str, corner[:3]))})" == paper
+    assert corner[3] == 255
+    assert saved("csv")[0].startswith(f"lepp-{figure}")
+
+
+def test_the_data_of_a_figure_are_those_shown(open_report: Open, report: Path) -> None:
+    page = open_report(f"#distribution={SECOND}")
+    with page.expect_download() as started:
+        page.locator("#figure-pairs button[data-save=csv]").click()
+    rows = Path(started.value.path()).read_text(encoding="utf-8").splitlines()
+    every = (report.parent / "tables/pairs.csv").read_text(encoding="utf-8").splitlines()
+    shown = [row for row in every[1:] if row.startswith(f"{DESIGN.methods[0]},{SECOND},")]
+    assert rows == [every[0], *shown]
+    assert 0 < len(shown) < len(every) - 1
 
 
 def test_cells_show_the_texts_of_the_tables(open_report: Open, run_directory: Path) -> None:
