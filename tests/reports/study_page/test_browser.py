@@ -19,6 +19,8 @@ from reports.text.numbers import show
 pytestmark = pytest.mark.browser
 
 Open = Callable[..., Page]
+#: What a number or a formula is not written with on the page.
+FOREIGN = re.compile(r"sqrt|\^|\de[+-]?\d|log10|\brho\b|(?<![\w)\]])-\d|\d ?%| - ")
 #: Colour of an image's upper right corner, which no drawing reaches.
 CORNER = """async (bytes) => {
     const image = new Image();
@@ -300,6 +302,30 @@ def test_the_script_asks_for_no_column_that_is_not_there(open_report: Open) -> N
         "table groups has no column n_point",
         "table groups has no column mean",
     ]
+
+
+def test_numbers_and_formulas_have_one_notation(open_report: Open) -> None:
+    """All text of the page, of every view and fold, and that of the plots."""
+    page = open_report()
+    page.evaluate("document.querySelectorAll('details').forEach(fold => fold.open = true)")
+    page.wait_for_function(
+        "[...document.querySelectorAll('[data-table]')].every(host => host.querySelector('table'))"
+    )
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")  # draws all plots
+    texts = page.evaluate(
+        """() => {
+            const main = document.querySelector('main');
+            const nodes = document.createTreeWalker(main, NodeFilter.SHOW_TEXT);
+            const texts = [];
+            while (nodes.nextNode()) {
+                const parent = nodes.currentNode.parentElement;
+                if (!parent.closest('code, pre, style')) texts.push(nodes.currentNode.textContent);
+            }
+            return texts;
+        }"""
+    )
+    assert len(texts) > 1000
+    assert sorted({text.strip() for text in texts if FOREIGN.search(text)}) == []
 
 
 def test_dark_theme_follows_the_system_and_the_button(open_report: Open) -> None:
