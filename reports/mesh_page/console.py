@@ -8,8 +8,8 @@ from rich.table import Table
 from rich.text import Text
 
 from reports.mesh_page import findings
-from reports.text.numbers import show
 from study.meshes.survey import Survey
+from study.text.numbers import show
 
 
 def print_survey(survey: Survey) -> None:

@@ -8,9 +8,9 @@ import lepp
 from lepp.errors import listed
 from lepp.theory import LEAST_P_TEXT
 from reports.page.blocks import Tile
-from reports.text.numbers import count, show
 from study.meshes.near_points import NEAR
 from study.meshes.survey import QUANTILES, RANDOM_DELAUNAY, Survey, quantile
+from study.text.numbers import count, show
 
 _RANDOM = "Delaunay meshes of random points"
 _ROWS = 24  # of a histogram; the sizes beyond share the last

@@ -10,9 +10,9 @@ import lepp
 from reports.mesh_page import findings
 from reports.page.assets import environment, static
 from reports.page.blocks import ALWAYS, Facts, Prose, Tiles
-from reports.text.numbers import show
 from study.meshes.as_json import size_counts
 from study.meshes.survey import Survey
+from study.text.numbers import show
 
 MOST_DRAWN = 100_000
 """Triangles that a browser draws at once without a pause; of larger meshes a part is shown."""

@@ -16,7 +16,6 @@ from study.analysis.distribution_comparison import ALIKE, ANALOGOUS, MARGIN
 from study.analysis.group_assumptions import CENTERS, LEVENE, SHAPIRO
 from study.analysis.group_summaries import GROUPS
 from study.analysis.limits import FEW, LIMIT_VERDICTS
-from study.analysis.numbers import listed, show
 from study.analysis.parts import INTERIOR, WHOLE
 from study.analysis.path_lengths import CONSTANT, CONTINUATION, PATH_LAWS
 from study.analysis.regressions import LEAST_SQUARES, REGRESSIONS
@@ -43,6 +42,7 @@ from study.statistics.verdicts import (
     all_of,
     yes,
 )
+from study.text.numbers import listed, show
 
 #: Verdict on a statement that the run does not suffice for.
 NOT_TESTED = "not tested"

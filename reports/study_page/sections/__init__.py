@@ -17,11 +17,11 @@ from reports.study_page.sections import (
     summary,
     theory,
 )
-from reports.text.numbers import count, large, listed
 from study.analysis.analyse import MISSING
 from study.analysis.group_summaries import OVERVIEW, TRIANGULATIONS_MISSING
 from study.analysis.path_lengths import LAW_MISSING
 from study.analysis.regressions import SATURATION_MISSING
+from study.text.numbers import count, large, listed
 
 TITLE = "How far does one refinement spread?"
 COLOPHON = (

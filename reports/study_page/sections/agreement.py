@@ -19,7 +19,6 @@ from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View
 from reports.study_page.tables import TABLE_4
-from reports.text.numbers import count, listed, none_or, show
 from reports.text.words import LEVEL
 from study.analysis.group_summaries import GROUPS
 from study.paper.consistency import CONSISTENCY
@@ -58,6 +57,7 @@ from study.paper.reproduction import (
 from study.paper.runs_lattice import RUNS_LATTICE
 from study.statistics.thresholds import AGREES_UP_TO, CLOSE_UP_TO, TABLE_DIFFERS_BELOW
 from study.statistics.verdicts import UNDECIDED, YES
+from study.text.numbers import count, listed, none_or, show
 
 
 def section(evidence: Evidence) -> Section:

@@ -7,11 +7,11 @@ from reports.page.blocks import FigureBlock, Prose, Subsection, TableBlock, per_
 from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View
-from reports.text.numbers import count, none_or, show
 from study.analysis.group_assumptions import LEVENE, QQ, SHAPIRO
 from study.analysis.group_summaries import GROUPS
 from study.statistics.thresholds import ONE_IN_TWENTY, SIGNIFICANCE
 from study.statistics.verdicts import REJECTED
+from study.text.numbers import count, none_or, show
 
 
 def assumptions(evidence: Evidence) -> Subsection:

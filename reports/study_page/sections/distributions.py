@@ -7,7 +7,6 @@ from reports.page.blocks import FigureBlock, Prose, Section, Subsection, TableBl
 from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View, distribution_name, distribution_word
-from reports.text.numbers import count, listed, show
 from reports.text.words import LEVEL
 from study.analysis.distribution_comparison import (
     ALIKE,
@@ -20,6 +19,7 @@ from study.analysis.distribution_comparison import (
 )
 from study.analysis.parts import INTERIOR, PARTS, WHOLE
 from study.statistics.verdicts import NO, UNDECIDED, YES
+from study.text.numbers import count, listed, show
 
 _OF = {WHOLE: "Of whole meshes", INTERIOR: "Of their interiors"}
 

@@ -10,7 +10,6 @@ from reports.page.blocks import FigureBlock, Prose, Section, Subsection, TableBl
 from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View, distribution_name, distribution_word
-from reports.text.numbers import count, show
 from reports.text.words import LEVEL
 from study.analysis.part_means import (
     DISTRIBUTION_MEANS,
@@ -20,6 +19,7 @@ from study.analysis.part_means import (
 )
 from study.analysis.parts import INTERIOR, WHOLE
 from study.statistics.verdicts import REJECTED
+from study.text.numbers import count, show
 
 #: Paths of a size that so many at least have are called long.
 _LONG = 100

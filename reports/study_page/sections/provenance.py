@@ -8,11 +8,11 @@ from reports.page.blocks import Facts, Section, Subsection, TableBlock, common
 from reports.page.evidence import Evidence
 from reports.page.views import distribution_word
 from reports.study_page.tables import FAILURES
-from reports.text.numbers import count, large, listed, ten_to
 from study.analysis.analyse import MISSING
 from study.analysis.group_summaries import OVERVIEW
 from study.analysis.table import Rows
 from study.design.design import Design
+from study.text.numbers import count, large, listed, ten_to
 
 
 def section(evidence: Evidence) -> Section:

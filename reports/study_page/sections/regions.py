@@ -1,12 +1,15 @@
 """Terminal edges, and the regions of triangles whose paths end at one of them."""
 
+import math
+
 from reports.page import style
 from reports.page.blocks import FigureBlock, Prose, Section, Subsection, TableBlock, per_view
 from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View
-from reports.text.numbers import show
+from reports.text.words import LEVEL
 from study.analysis.terminal_regions import REGION_SIZES, REGIONS
+from study.text.numbers import show
 
 
 def section(evidence: Evidence) -> Section:
@@ -71,10 +74,16 @@ def _sizes(evidence: Evidence) -> FigureBlock:
                 mode="markers",
                 name="share of the regions",
                 marker=style.marker(0, 6),
-                hovertemplate="%{x} triangles: %{y:.3%}<extra></extra>",
+                error_y=style.interval(
+                    rows["share"], rows["share_low"], rows["share_high"], style.SERIES[0]
+                ),
+                hovertemplate="%{x} triangles: %{y}<extra></extra>",
             ),
             xaxis=style.axis("Triangles in the region"),
-            yaxis=style.powers("Share of the regions"),
+            # Of a size that was seen once or twice, the interval reaches down to nothing.
+            yaxis=style.powers(
+                "Share of the regions", range=[math.log10(rows["share"].min()) - 0.5, 0]
+            ),
         )
 
     def say(view: View) -> str | None:
@@ -96,6 +105,7 @@ def _sizes(evidence: Evidence) -> FigureBlock:
         title="Sizes of terminal-edge regions",
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
-        reading="The vertical scale is logarithmic.",
+        reading=f"Bars are {LEVEL} intervals, mostly narrower than the markers. The vertical scale "
+        "is logarithmic.",
         data=(TableBlock(REGION_SIZES, "Data: sizes of the regions"),),
     )

@@ -8,7 +8,6 @@ from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View
 from reports.study_page.tables import TABLE_4
-from reports.text.numbers import count, listed, show, ten_to
 from reports.text.words import LEVEL
 from study.analysis.group_summaries import GROUPS
 from study.analysis.limits import EDGE_LIMITS, FEW, LIMIT_VERDICTS, LIMITS, REASONS
@@ -37,6 +36,7 @@ from study.statistics.limit_verdict import GROWTH, LIMIT, NONE_FITS, ROUGH
 from study.statistics.limit_verdict import LEVEL as IS_LEVEL
 from study.statistics.thresholds import LEVEL_PER_DECADE, REFUTED_BELOW, SIGNIFICANCE
 from study.statistics.verdicts import NO, YES
+from study.text.numbers import count, listed, show, ten_to
 
 
 def section(evidence: Evidence) -> Section:
@@ -411,7 +411,9 @@ def _panel(evidence: Evidence, view: View, part: str, which: str) -> style.Panel
                     name=model,
                     legendgroup=model,
                     showlegend=part == WHOLE,
-                    line=style.line(series),
+                    # Pale and wide, the first is seen beside one that lies on it.
+                    line=style.line(series, 2 if series else 5),
+                    opacity=1 if series else 0.5,
                     hovertemplate="%{x:,} points: %{y:.4f}<extra>" + model + "</extra>",
                 )
             )

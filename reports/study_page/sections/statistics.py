@@ -9,7 +9,6 @@ from reports.page.style import Spec
 from reports.page.views import View
 from reports.study_page.sections.assumptions import assumptions
 from reports.study_page.sections.randomness import randomness
-from reports.text.numbers import count, listed, show
 from reports.text.words import LEVEL
 from study.analysis.bound_tests import BOUNDS, LOWER_BOUND, UPPER_BOUND
 from study.analysis.group_summaries import GROUPS
@@ -17,6 +16,7 @@ from study.analysis.pairwise_comparisons import PAIRS
 from study.analysis.variance_analysis import ANOVA, WELCH
 from study.statistics.thresholds import SIGNIFICANCE
 from study.statistics.verdicts import NOT_SHOWN, REJECTED, YES
+from study.text.numbers import count, listed, show
 
 
 def section(evidence: Evidence) -> Section:
@@ -120,24 +120,18 @@ def _pairs(evidence: Evidence) -> FigureBlock:
                 x=pairs.column("n_points_1"),
                 y=pairs.column("n_points_2"),
                 z=pairs.column("difference"),
-                customdata=pairs.column("p"),
+                customdata=pairs.column("different"),
                 colorscale=style.SCALE,
                 xgap=1,
                 ygap=1,
-                colorbar={
-                    "title": {"text": "Difference<br>of means"},
-                    "thickness": 12,
-                    "outlinewidth": 0,
-                    "tickformat": ".3f",
-                },
-                hovertemplate="%{y} − %{x}: %{z:.4f}, p %{customdata:.2g}<extra></extra>",
+                colorbar=style.color_bar("Difference of means", ".3f"),
+                hovertemplate="%{y} − %{x}: %{z:.4f}, different: %{customdata}<extra></extra>",
             ),
             style.scatter(
                 x=alike.column("n_points_1"),
                 y=alike.column("n_points_2"),
-                mode="text",
-                text="·",
-                textfont={"size": 15, "color": style.INK},
+                mode="markers",
+                marker={"size": 5, "color": style.INK},
                 name=f"{NOT_SHOWN} to differ",
                 hoverinfo="skip",
             ),

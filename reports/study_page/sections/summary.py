@@ -19,7 +19,6 @@ from reports.study_page.explorer import EXPLORER_POINTS, EXPLORER_TRIANGLES, N_P
 from reports.study_page.sections.regressions import trend_sentence
 from reports.study_page.sections.theory import one_chance
 from reports.study_page.tables import TABLE_4
-from reports.text.numbers import count, large, listed, show
 from reports.text.words import LEVEL
 from study.analysis.group_summaries import GROUPS, OVERVIEW
 from study.analysis.table import Rows
@@ -30,6 +29,7 @@ from study.paper.reproduction import JUDGED, SUMMARY, independent_column
 from study.paper.statements import NOT_TESTED, STATEMENTS
 from study.statistics.thresholds import CLOSE_UP_TO
 from study.statistics.verdicts import NO, NOT_REJECTED, NOT_SHOWN, UNDECIDED, YES, all_of
+from study.text.numbers import count, large, listed, show
 
 
 def section(evidence: Evidence) -> Section:

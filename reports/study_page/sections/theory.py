@@ -9,7 +9,6 @@ from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View
 from reports.study_page.sections.worst_case import worst_case
-from reports.text.numbers import large, listed, show
 from reports.text.words import LEVEL, PREMISE
 from study.analysis.parts import INTERIOR, WHOLE
 from study.analysis.path_lengths import (
@@ -35,6 +34,7 @@ from study.analysis.theorems import (
 )
 from study.statistics.thresholds import ROUGH_RATE
 from study.statistics.verdicts import NO, REJECTED, YES
+from study.text.numbers import large, listed, show
 
 #: The size from which on paths are called long.
 LONG = 8
@@ -163,15 +163,16 @@ def _types(evidence: Evidence) -> FigureBlock:
                     name=f"type {name}",
                     line=style.line(series),
                     marker=style.marker(series),
-                    hovertemplate="%{x:,} points: %{y:.2%}<extra>type " + name + "</extra>",
+                    error_y=style.interval(
+                        rows["share"], rows["low"], rows["high"], style.SERIES[series]
+                    ),
+                    hovertemplate="%{x:,} points: %{y:.4f}<extra>type " + name + "</extra>",
                 )
             )
         return style.plot(
             *traces,
             xaxis=style.axis("Number of points"),
-            yaxis=style.axis(
-                "Share of longest-edge neighbours", tickformat=".0%", rangemode="tozero"
-            ),
+            yaxis=style.percents("Share of longest-edge neighbours", rangemode="tozero"),
             levels=[style.Level(LEAST_P, f"p = {LEAST_P_TEXT}")],
         )
 
@@ -193,7 +194,8 @@ def _types(evidence: Evidence) -> FigureBlock:
         title="Types of longest-edge neighbours",
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
-        reading="The dotted line is the least share of type C that Theorem 2 supposes.",
+        reading=f"Bars are {LEVEL} intervals, mostly narrower than the markers; the dotted line is "
+        "the least share of type C that Theorem 2 supposes.",
         data=(TableBlock(NEIGHBOR_TYPES, "Data: shares of the types by number of points"),),
     )
 
@@ -274,8 +276,9 @@ def _moments(evidence: Evidence) -> FigureBlock:
         title="The four moments, measured and by Theorem 1",
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
-        reading="The scales differ; what matters is the distance between the lines of a panel. "
-        "With r of all steps the mean fits by construction.",
+        reading=f"Bars are {LEVEL} intervals, mostly narrower than the markers. The scales differ; "
+        "what matters is the distance between the lines of a panel. With r of all steps the mean "
+        "fits by construction.",
         data=(TableBlock(THEOREM_1, "Data: moments by number of points"),),
     )
 
@@ -293,6 +296,15 @@ def _moment(evidence: Evidence, view: View, statistic: str) -> style.Panel:
             line=style.line(series),
             marker=style.marker(series, 5),
             hovertemplate="%{x:,} points: %{y:.4f}<extra>" + name + "</extra>",
+            **(
+                {
+                    "error_y": style.interval(
+                        rows[column], rows["low"], rows["high"], style.SERIES[0]
+                    )
+                }
+                if column == "measured"
+                else {}
+            ),
         )
         for series, (column, name) in enumerate(
             (
@@ -474,7 +486,7 @@ def _law(evidence: Evidence) -> FigureBlock:
                 y=rows.column("share"),
                 name="measured",
                 marker={"color": style.SERIES[0]},
-                hovertemplate="size %{x}: %{y:.3%}<extra>measured</extra>",
+                hovertemplate="size %{x}: %{y}<extra>measured</extra>",
             ),
             style.scatter(
                 x=rows.column("lepp_size"),
@@ -483,9 +495,9 @@ def _law(evidence: Evidence) -> FigureBlock:
                 name="geometric law of the measured p",
                 line=style.line(1),
                 marker=style.marker(1),
-                hovertemplate="size %{x}: %{y:.3%}<extra>geometric law</extra>",
+                hovertemplate="size %{x}: %{y}<extra>geometric law</extra>",
             ),
-            xaxis=style.axis("LEPP size", dtick=1),
+            xaxis=style.whole("LEPP size", int(rows["lepp_size"].max())),
             yaxis=style.powers("Share of triangles"),
             bargap=0.3,
         )

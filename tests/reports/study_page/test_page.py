@@ -10,14 +10,15 @@ import plotly.graph_objects as go
 import pytest
 from tiny_runs import DESIGN, store_run
 
+from reports.page import plotly
 from reports.page.blocks import FigureBlock, Section
 from reports.page.data import decode
 from reports.page.evidence import Evidence
 from reports.study_page import sections
 from reports.study_page.gather import gather
 from reports.study_page.page import write_report
-from reports.text.numbers import show
 from study.analysis.table import ColumnReference
+from study.text.numbers import show
 
 MOST_BYTES = 3_000_000
 VOID = {"meta", "link", "input", "br", "path", "polygon", "img", "hr"}
@@ -136,6 +137,16 @@ def test_plots_keep_to_plotlys_schema(parts: list[Section]) -> None:
             go.Figure(without_references(spec))  # raises ValueError for what Plotly does not know
 
 
+def test_plots_use_the_kinds_of_traces_that_the_page_has(parts: list[Section]) -> None:
+    kinds = {
+        trace["type"]
+        for block in figures(parts)
+        for spec in block.specs.values()
+        for trace in spec["data"]
+    }
+    assert kinds == set(plotly.TRACES)
+
+
 def test_data_block_holds_the_files_on_disk(read: Reader, report: Path) -> None:
     tables = decode(read.scripts["report-data"])["tables"]
     files = {path.stem: path for path in report.parent.glob("tables/*.csv")}
@@ -163,8 +174,8 @@ def test_figures_repeat_no_number_of_a_table(read: Reader) -> None:
             return max([len(node), *map(longest, node)])
         return 0
 
-    # What stays inline grows with the number of sizes and LEPP sizes, not with the tasks.
-    assert longest(decode(read.scripts["report-data"])["figures"]) < 60
+    # What stays inline grows with the numbers of groups and of sizes, not with the tasks.
+    assert longest(decode(read.scripts["report-data"])["figures"]) < 100
 
 
 def test_a_report_fits_into_its_bytes(report: Path) -> None:

@@ -11,11 +11,11 @@ from reports.page.views import View
 from reports.study_page.gather import gather
 from reports.study_page.sections import agreement, regions, statistics, summary, theory
 from reports.study_page.sections.randomness import randomness
-from reports.text.numbers import show
 from study.analysis.bound_tests import BOUNDS
 from study.analysis.group_summaries import GROUPS
 from study.analysis.path_lengths import LAW, TERMINATION
 from study.analysis.terminal_regions import REGION_SIZES
+from study.text.numbers import show
 
 VIEW = View("incremental", "uniform")
 

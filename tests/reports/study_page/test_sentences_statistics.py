@@ -6,7 +6,7 @@ import pytest
 from made_runs import page, run
 from scipy import stats
 
-from reports.text.numbers import p_value_from_log10
+from study.text.numbers import p_value_from_log10
 
 SIZES = (1000, 2000, 4000, 8000)
 

@@ -5,7 +5,7 @@ import pytest
 from made_runs import METHODS, page, run
 from scipy import stats
 
-from study.analysis.numbers import p_value_from_log10, significant
+from study.text.numbers import p_value_from_log10, significant
 
 
 def rows(name, method="incremental"):

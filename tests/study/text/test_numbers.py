@@ -2,7 +2,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from study.analysis.numbers import count, large, listed, p_value_from_log10, show, thousands
+from study.text.numbers import count, large, listed, p_value_from_log10, show, thousands
 
 
 @pytest.mark.parametrize(
@@ -27,7 +27,10 @@ from study.analysis.numbers import count, large, listed, p_value_from_log10, sho
         (float("nan"), "fixed2", "–"),
         (None, "text", "–"),
         (pd.NA, "int", "–"),
+        (780.0, "df", "780"),
+        (287.1704, "df", "287.2"),
         ("agrees", "text", "agrees"),
+        ("c - a x^(-b)", "text", "c − a x⁻ᵇ"),
         ("agrees", "verdict", "agrees"),
         ("bivariate_normal", "name", "bivariate normal"),
         (float("-inf"), "g3", "−∞"),

@@ -1,0 +1,1 @@
+"""Numbers, formulas and lists as a reader sees them."""
