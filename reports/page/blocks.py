@@ -55,6 +55,22 @@ class Facts:
 
 
 @dataclass(frozen=True)
+class Quotation:
+    """Text to be copied as it stands.
+
+    Attributes
+    ----------
+    label : str
+        What it is.
+    text : str
+    """
+
+    label: str
+    text: str
+    kind: str = "quotation"
+
+
+@dataclass(frozen=True)
 class TableBlock:
     """A table of the data block.
 
@@ -62,8 +78,9 @@ class TableBlock:
     ----------
     table : Declaration
     caption : str
+        Plain words. A table of a figure's data has the figure's number put before them.
     columns : tuple of str
-        The columns to show; all when empty. The download always has all.
+        The columns to show, in this order; all when empty. The full download always has all.
     follows : tuple of str, optional
         The switches that pick the rows shown; those that the table has a column for, by default.
     folded : bool
@@ -72,6 +89,10 @@ class TableBlock:
         Values of further columns that pick the rows shown.
     printed_whole : bool
         Whether a print-out has all rows, however many there are.
+    paper : str
+        What the paper calls this table: ``Table 7``.
+    id : str
+        Stable address of the element; made of the table's name when empty.
 
     Raises
     ------
@@ -86,6 +107,8 @@ class TableBlock:
     folded: bool = False
     where: dict[str, object] = field(default_factory=dict)
     printed_whole: bool = False
+    paper: str = ""
+    id: str = ""
     kind: str = "table"
 
     def __post_init__(self) -> None:
@@ -99,6 +122,11 @@ class TableBlock:
             return self.follows
         return tuple(name for name in SWITCHES if name in self.table.column_names)
 
+    @property
+    def address(self) -> str:
+        """Id of the element."""
+        return self.id or f"table-{self.table.name.replace('_', '-')}"
+
 
 @dataclass(frozen=True)
 class FigureBlock:
@@ -107,9 +135,9 @@ class FigureBlock:
     Attributes
     ----------
     id : str
-        Stable id of the element, ``figure-4``.
+        Stable id of the element, a word of what it shows: ``figure-models``.
     title : str
-        ``Figure 4. …``
+        Plain words; its number is given where the page is put together.
     specs : dict of str to Spec
         The plot for each view; a view without one is said to be missing.
     alternatives : dict of str to str
@@ -118,6 +146,10 @@ class FigureBlock:
         How to read it, in a sentence.
     data : tuple of TableBlock
         The tables of its data, shown under a fold.
+    paper : str
+        What the paper calls this figure: ``Figure 6``.
+    number : int
+        Place among the figures of the page; 0 before the page is put together.
     """
 
     id: str
@@ -126,6 +158,8 @@ class FigureBlock:
     alternatives: dict[str, str]
     reading: str
     data: tuple[TableBlock, ...]
+    paper: str = ""
+    number: int = 0
     kind: str = "figure"
 
     @property
@@ -145,10 +179,12 @@ class Drawing:
     alternatives: dict[str, str]
     reading: str
     data: tuple[TableBlock, ...] = ()
+    paper: str = ""
+    number: int = 0
     kind: str = "drawing"
 
 
-Block = Prose | Tiles | Facts | TableBlock | FigureBlock | Drawing
+Block = Prose | Tiles | Facts | Quotation | TableBlock | FigureBlock | Drawing
 
 
 @dataclass(frozen=True)

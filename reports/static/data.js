@@ -76,8 +76,16 @@ class Table {
   }
 
   get csv() {
-    const lines = [this.columns.map((column) => column.header),
-      ...this.select().map((row) => this.columns.map((column) => column.raw[row]))];
+    return this.csvOf(this.columns, this.select());
+  }
+
+  /**
+   * @param {Column[]} columns
+   * @param {number[]} rows
+   */
+  csvOf(columns, rows) {
+    const lines = [columns.map((column) => column.header),
+      ...rows.map((row) => columns.map((column) => column.raw[row]))];
     return lines.map((line) => line.map(quoted).join(",") + "\n").join("");
   }
 }

@@ -56,6 +56,31 @@ class Number:
         return float(10.0 ** (exponent - self.places))
 
 
+@dataclass(frozen=True)
+class Citation:
+    """How the paper is cited.
+
+    Attributes
+    ----------
+    authors : tuple of str
+        Given name first.
+    title, venue : str
+    year : int
+    doi : str
+        Without a resolver's address.
+    doi_confirmed : bool
+        Whether the DOI has been looked up; else it is made from the publisher's paper number and
+        pages.
+    """
+
+    authors: tuple[str, ...]
+    title: str
+    venue: str
+    year: int
+    doi: str
+    doi_confirmed: bool
+
+
 def reference_method(methods: Sequence[str]) -> str:
     """Pick the method that all others are compared with: the paper's, or the first."""
     return REFERENCE_METHOD if REFERENCE_METHOD in methods else methods[0]
@@ -65,6 +90,21 @@ def reference_method(methods: Sequence[str]) -> str:
 def _document() -> dict[str, Any]:
     text = resources.files("study.paper").joinpath("published.json").read_text("utf-8")
     return json.loads(text)
+
+
+def _citation() -> Citation:
+    printed = _document()["citation"]
+    return Citation(
+        tuple(printed["authors"]),
+        printed["title"],
+        printed["venue"],
+        printed["year"],
+        printed["doi"],
+        printed["doi_confirmed"],
+    )
+
+
+CITATION = _citation()
 
 
 def sizes() -> tuple[int, ...]:

@@ -33,29 +33,29 @@ def altered(evidence: Evidence, table: str, **values: object) -> Evidence:
     return replace(evidence, tables=evidence.tables.adding(changed))
 
 
-def prose(section: object, block_of: int = 0, part_of: int = 0) -> str:
-    paragraphs = section.parts[part_of].blocks[block_of].paragraphs  # type: ignore[attr-defined]
+def prose(section: object, part_of: int = 0) -> str:
+    paragraphs = section.parts[part_of].blocks[0].paragraphs  # type: ignore[attr-defined]
     return " ".join(paragraphs.get(VIEW.key, paragraphs.get("*", [])))
 
 
 def test_bounds_and_premise(evidence: Evidence) -> None:
-    said = prose(summary.section(evidence), block_of=1)
+    said = prose(summary.section(evidence))
     assert "Theorem 2's bounds hold in every triangulation, and so does what it supposes" in said
     broken = altered(evidence, "theorem_2", bounds="no")
-    assert "Theorem 2's bounds fail" in prose(summary.section(broken), block_of=1)
+    assert "Theorem 2's bounds fail" in prose(summary.section(broken))
     unfounded = altered(evidence, "theorem_2", premise="no")
-    assert "although what it supposes" in prose(summary.section(unfounded), block_of=1)
+    assert "although what it supposes" in prose(summary.section(unfounded))
     assert "fails in every group" in prose(theory.section(unfounded))
 
 
 def test_growth(evidence: Evidence) -> None:
     grown = altered(evidence, "anova", p=1e-9)
-    assert "The mean grows with the number of points" in prose(summary.section(grown), block_of=1)
+    assert "The mean grows with the number of points" in prose(summary.section(grown))
     level = altered(evidence, "anova", p=0.5)
-    assert "does not depend on the number of points" in prose(summary.section(level), block_of=1)
+    assert "does not depend on the number of points" in prose(summary.section(level))
     means = evidence.tables["table_4"].frame["mean_lepp"]
     falling = altered(grown, "table_4", mean_lepp=-means)
-    assert "The mean falls with the number of points" in prose(summary.section(falling), block_of=1)
+    assert "The mean falls with the number of points" in prose(summary.section(falling))
 
 
 def test_theorem_1_is_praised_only_where_it_is_right(evidence: Evidence) -> None:
@@ -84,7 +84,7 @@ def test_chance_is_not_blamed_for_too_many_rejections(evidence: Evidence) -> Non
 
 
 def test_numbers_in_tiles_are_those_of_the_tables(evidence: Evidence) -> None:
-    tiles = summary.section(evidence).parts[0].blocks[0].tiles[VIEW.key]  # type: ignore[union-attr]
+    tiles = summary.section(evidence).parts[0].blocks[1].tiles[VIEW.key]  # type: ignore[union-attr]
     rows = evidence.rows(GROUPS, VIEW)
     assert tiles[0].value == f"{rows['mean_lepp'].iloc[-1]:.4f}"
     histograms = evidence.rows(LAW, VIEW)
@@ -102,11 +102,11 @@ def test_premise_is_judged_at_all_sizes(evidence: Evidence) -> None:
     frame = evidence.tables["theorem_2"].frame
     smallest = frame["n_points"] == DESIGN.sizes[0]
     failing = altered(evidence, "theorem_2", premise=smallest.map({True: "no", False: "yes"}))
-    said = prose(summary.section(failing), block_of=1)
+    said = prose(summary.section(failing))
     assert f"does not at 1 of {len(DESIGN.sizes)} numbers of points" in said
     assert f"fails in 1 of {len(DESIGN.sizes)} groups" in prose(theory.section(failing))
     unsure = altered(evidence, "theorem_2", premise=smallest.map({True: "undecided", False: "yes"}))
-    assert "while it stays open" in prose(summary.section(unsure), block_of=1)
+    assert "while it stays open" in prose(summary.section(unsure))
     groups = len(DESIGN.sizes)
     assert f"is clear in {groups - 1} of {groups} groups" in prose(theory.section(unsure))
 
@@ -115,7 +115,7 @@ def test_theorem_1_is_within_a_per_cent_only_if_it_is(evidence: Evidence) -> Non
     praise = "gives the mean and the standard deviation within one per cent"
     for off, praised in ((0.0099, True), (0.0101, False), (-9.0, False)):
         changed = altered(evidence, "theorem_1", relative_difference=off)
-        assert (praise in prose(summary.section(changed), block_of=1)) == praised
+        assert (praise in prose(summary.section(changed))) == praised
 
 
 def test_a_trend_ends_where_rates_are_rough(evidence: Evidence) -> None:
@@ -166,7 +166,7 @@ def test_the_best_model_has_the_lowest_aic(evidence: Evidence) -> None:
     rows = evidence.rows(REGRESSIONS, VIEW, fitting="least squares").frame.dropna(subset="aic")
     lowest = rows.loc[rows["aic"].idxmin(), "model"]
     assert f"the {lowest} model describes it best by AIC" in prose(
-        summary.section(altered(evidence, "anova", p=1e-9)), block_of=1
+        summary.section(altered(evidence, "anova", p=1e-9))
     )
     assert f"The {lowest} model, which has the lowest AIC" in prose(
         regressions.section(evidence), part_of=1
