@@ -60,7 +60,7 @@ def paper_entry(paper: Citation) -> str:
     }
     if paper.doi_confirmed:
         fields["doi"] = paper.doi
-    return _entry("inproceedings", f"{_key(paper.authors[-1])}{paper.year}", fields)
+    return _entry("inproceedings", f"{_key(paper.authors[0])}{paper.year}", fields)
 
 
 def paper_in_words(paper: Citation) -> str:

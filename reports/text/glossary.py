@@ -65,7 +65,7 @@ TERMS = (
     Term(
         "p",
         # Not the p of a test: that is followed by its value.
-        rf"(?:(?<=chance )|(?<=share )|(?<=shares ))p\b|\bp(?=\u00a0≥\u00a0{LEAST_P_TEXT})"
+        rf"(?:(?<=chance )|(?<=share )|(?<=shares ))p\b|\bp\u00a0≥\u00a0{LEAST_P_TEXT}"
         r"|\bp(?= is \d)",
         "The chance that a triangle's path ends at its first step: the share of type C among the "
         "neighbours across longest edges. The theorems take it to be the same at every step.",

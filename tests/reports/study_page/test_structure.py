@@ -77,12 +77,12 @@ def test_the_reader_moves_away_from_a_place(open_report: Open) -> None:
 
 def test_contents_unfold_the_section_that_is_read(open_report: Open) -> None:
     page = open_report("#theory")
-    part = page.get_by_role("navigation").locator("a[href='#moments']")
+    part = page.get_by_role("navigation").locator("a[href='#steps']")
     page.locator(".contents a[href='#theory'][aria-current]").wait_for()
     assert part.is_visible()
     assert not page.get_by_role("navigation").locator("a[href='#projections']").is_visible()
     part.click()
-    assert is_reached(page, "moments")
+    assert is_reached(page, "steps")
     page.get_by_role("button", name="Parts of: The regressions").press("Enter")
     assert page.get_by_role("navigation").locator("a[href='#projections']").is_visible()
 
@@ -212,7 +212,7 @@ def test_a_citation_is_copied(open_report: Open) -> None:
     box.get_by_role("button", name="Copy").click()
     text = page.evaluate("navigator.clipboard.readText()")
     assert text == box.locator("pre").inner_text()
-    assert text.startswith("@inproceedings{rivara2020,")
+    assert text.startswith("@inproceedings{huayta2020,")
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

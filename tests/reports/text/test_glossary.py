@@ -26,7 +26,7 @@ def terms_in(text: str) -> list[str]:
         ("Plain insertion, not Delaunay",
             [("plain-insertion", "Plain insertion"), ("delaunay", "Delaunay")]),
         ("the shares p of type C", [("p", "p"), ("type-c", "type C")]),
-        ("what it supposes, p\u00a0≥\u00a01/3, holds", [("p", "p")]),
+        ("what it supposes, p\u00a0≥\u00a01/3, holds", [("p", "p\u00a0≥\u00a01/3")]),
         ("p is 0.41", [("p", "p")]),
         ("a test (p\u00a0=\u00a00.02)", []),
         ("up to a step", []),
