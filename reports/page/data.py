@@ -14,6 +14,7 @@ from collections.abc import Iterable
 import numpy as np
 import pandas as pd
 
+from reports.text.notation import typeset
 from reports.text.numbers import show
 from reports.text.words import sense
 from study.analysis.table import Column, ColumnReference, Table
@@ -57,7 +58,7 @@ def table_data(table: Table) -> dict:
     """Describe a table for the page: its columns with their cells, raw and as they are shown."""
     return {
         "title": table.title,
-        "note": table.note,
+        "note": typeset(table.note),
         "columns": [_column_data(table, column) for column in table.columns],
     }
 
@@ -65,9 +66,9 @@ def table_data(table: Table) -> dict:
 def _column_data(table: Table, column: Column) -> dict:
     raw = table.cells(column.name)
     shown = [show(value, column.format) for value in table.frame[column.name]]
-    label = column.label
+    label = typeset(column.label)
     if column.format == "log10p":  # shown as p
-        label = label.removeprefix("log10 ")
+        label = label.removeprefix("log₁₀ ")
     data: dict[str, object] = {"name": column.name, "label": label, "header": column.header}
     if column.unit and column.unit != label.lower():
         data["unit"] = column.unit

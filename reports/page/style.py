@@ -10,9 +10,12 @@ alone.
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from reports.text.numbers import thousands
+from reports.text.numbers import percent, ten_to, thousands
+
+if TYPE_CHECKING:
+    from pandas import Series
 
 Spec = dict[str, Any]
 
@@ -27,6 +30,18 @@ SYMBOLS = ("circle", "diamond", "square", "triangle-up", "x")
 #: Legend above the plot; Plotly's own place beside it takes a third of a narrow screen.
 _LEGEND = {"orientation": "h", "x": 0, "xanchor": "left", "y": 1.02, "yanchor": "bottom"}
 _CLEAR = "rgba(0,0,0,0)"
+#: Distance of two rows of panels in CSS pixels: tick labels, and the next row's titles.
+_GAP, _GAP_TITLED = 44, 84
+#: As many decimals for all tick labels of an axis as the step between them needs.
+_TICK_FORMATS = [
+    *(
+        {"dtickrange": [0.9 * 10.0**-k, 0.9 * 10.0 ** (1 - k)], "value": f".{k}f"}
+        for k in range(6, 0, -1)
+    ),
+    {"dtickrange": [0.9, 900], "value": ",.0f"},
+    {"dtickrange": [900, None], "value": "~s"},
+]
+_POWERS = range(-20, 21)
 
 
 @dataclass(frozen=True)
@@ -81,6 +96,8 @@ def axis(title: str, **more: Any) -> Spec:  # noqa: ANN401 - as above
         "ticklen": 4,
         "zeroline": False,
         "showline": True,
+        "tickangle": 0,
+        "tickformatstops": _TICK_FORMATS,
         "title": {"text": title, "standoff": 10, "font": {"size": 13}},
         **more,
     }
@@ -88,13 +105,31 @@ def axis(title: str, **more: Any) -> Spec:  # noqa: ANN401 - as above
 
 def powers(title: str) -> Spec:
     """Logarithmic axis, a tick a power of ten."""
-    return axis(title, type="log", dtick=1, exponentformat="power")
+    return axis(
+        title,
+        type="log",
+        exponentformat="power",  # of what the pointer shows
+        tickvals=[10.0**power for power in _POWERS],
+        ticktext=[ten_to(power) if power else "1" for power in _POWERS],
+        tickformatstops=[],
+    )
+
+
+def percents(title: str, **more: Any) -> Spec:  # noqa: ANN401 - as above
+    """Axis of shares, a tick every ten percent."""
+    shares = [k / 10 for k in range(11)]
+    return axis(title, tickvals=shares, ticktext=[percent(share, 0) for share in shares], **more)
+
+
+def whole(title: str, largest: int) -> Spec:
+    """Axis of whole numbers up to `largest`, with labels that fit side by side on a telephone."""
+    return axis(title, dtick=-(-largest // 10))
 
 
 def sizes_axis(sizes: Iterable[int], title: str) -> Spec:
     """Axis with equal steps from one size to the next, whatever their distance."""
     ordered = [int(size) for size in sizes]
-    shown = range(0, len(ordered), -(-len(ordered) // 10))  # ten labels fit on a telephone
+    shown = range(0, len(ordered), -(-len(ordered) // 6))  # six labels fit on a telephone
     return axis(
         title,
         type="category",
@@ -103,6 +138,45 @@ def sizes_axis(sizes: Iterable[int], title: str) -> Spec:
         tickvals=list(shown),
         ticktext=[thousands(ordered[k]) for k in shown],
     )
+
+
+def interval(middle: "Series", low: "Series", high: "Series", color: str = MUTED) -> Spec:
+    """Bars from `low` to `high` through points at `middle`, for ``error_y``."""
+    return {
+        "type": "data",
+        "symmetric": False,
+        "array": _rough(high - middle),
+        "arrayminus": _rough(middle - low),
+        "thickness": 1.5,
+        "width": 3,
+        "color": color,
+    }
+
+
+def _rough(lengths: "Series") -> list[float]:
+    """Lengths to draw, with four digits: more are not seen, and would make the page larger."""
+    return [float(f"{length:.4g}") for length in lengths]
+
+
+def color_bar(title: str, decimals: str) -> Spec:
+    """Scale of a heat map, above it: beside it, it takes a quarter of a narrow screen.
+
+    `decimals` is the format of its labels, ``.3f``.
+    """
+    return {
+        "title": {"text": title, "side": "top", "font": {"size": 13}},
+        "orientation": "h",
+        "thickness": 10,
+        "outlinewidth": 0,
+        "x": 0,
+        "xanchor": "left",
+        "len": 0.6,
+        "y": 1.02,
+        "yanchor": "bottom",
+        "nticks": 5,
+        "tickfont": {"size": 12},
+        "tickformat": decimals,
+    }
 
 
 def plot(
@@ -120,6 +194,7 @@ def panels(
     parts: Sequence[Panel],
     columns: int = 1,
     height: int = 380,
+    ratio: float | None = None,
     **layout: Any,  # noqa: ANN401 - as above
 ) -> Spec:
     """Make a figure of panels, row by row.
@@ -130,6 +205,8 @@ def panels(
     columns : int
     height : int
         Of the whole figure in CSS pixels; the width is the page's.
+    ratio : float, optional
+        Most that the height may be as a multiple of the width, where panels keep their shape.
     **layout
         Further settings of Plotly's layout.
     """
@@ -150,10 +227,11 @@ def panels(
             "showlegend": legend,
             "shapes": [],
             "annotations": [],
+            **({"meta": {"ratio": ratio}} if ratio else {}),
             **layout,
         },
     }
-    gap = (64 if titled else 44) / height
+    gap = (_GAP_TITLED if titled else _GAP) / height
     for k, (part, (x, y)) in enumerate(zip(parts, _domains(parts, columns, gap), strict=True)):
         _place(spec, part, "" if k == 0 else str(k + 1), x, y)
         if k + columns < len(parts):  # the panel below names what both have along x
@@ -164,7 +242,7 @@ def panels(
 
 def _place(spec: Spec, part: Panel, number: str, x: list[float], y: list[float]) -> None:
     layout = spec["layout"]
-    few = {"nticks": 4, "tickangle": 0} if x[1] - x[0] < 0.9 else {}  # narrow on a telephone
+    few = {"nticks": 4} if x[1] - x[0] < 0.9 else {}  # narrow on a telephone
     layout[f"xaxis{number}"] = part.xaxis | few | {"domain": x, "anchor": f"y{number}"}
     layout[f"yaxis{number}"] = part.yaxis | {"domain": y, "anchor": f"x{number}"}
     spec["data"] += [

@@ -1,18 +1,42 @@
-// Plots, drawn when they come near the window; the theme's colours are put in on the way.
-const CONFIG = {
-  displaylogo: false,
-  responsive: true,
-  showTips: false,
-  modeBarButtons: [["toImage", "resetScale2d"]],
-};
+// Plots. Plotly is run when the first of them comes near the window, and only those near are drawn,
+// one a task; the theme's colours are put in on the way.
+const CONFIG = { displayModeBar: false, responsive: true, showTips: false };
+
+/** How far from the window a figure is near. */
+const NEAR = "600px 0px";
+
+/** Height of a figure on paper, as a share of that on the screen. */
+const HEIGHT_ON_PAPER = 0.8;
+
+/** Let the browser paint and answer the reader. */
+const nextTask = () => new Promise((resolve) => setTimeout(resolve));
+
+/**
+ * The height of a plot at a width: less where its panels keep their shape.
+ * @param {{ height: number, meta?: { ratio: number } }} layout
+ * @param {number} width
+ */
+function heightAt({ height, meta }, width) {
+  return meta ? Math.min(height, Math.round(meta.ratio * width)) : height;
+}
 
 class Figures {
-  /** @param {ReportData} report */
-  constructor(report) {
+  /**
+   * @param {ReportData} report
+   * @param {() => Record<string, string>} currentView
+   */
+  constructor(report, currentView) {
     this.report = report;
+    this.currentView = currentView;
     this.hosts = [.../** @type {NodeListOf<PlotlyHost>} */ (document.querySelectorAll("[data-figure]"))];
     /** @type {Set<PlotlyHost>} */
-    this.drawn = new Set();
+    this.near = new Set();
+    /** What each plot shows. @type {Map<PlotlyHost, string>} */
+    this.drawn = new Map();
+    /** Of the paper, while the page is printed. @type {number | undefined} */
+    this.width = undefined;
+    this.busy = false;
+    this.source = "";
     this.probe = document.createElement("span");
     this.probe.hidden = true;
     document.body.append(this.probe);
@@ -39,70 +63,116 @@ class Figures {
   }
 
   /**
+   * The name of the variant that a figure shows in this view; none if there is no such plot.
    * @param {PlotlyHost} host
-   * @param {Record<string, string>} view
    */
-  draw(host, view) {
+  variantOf(host) {
     const views = this.report.figures[host.dataset.figure ?? ""];
-    const spec = views[`${view.method}/${view.distribution}`] ?? views["*"];
-    host.hidden = !spec;
-    const absent = /** @type {HTMLElement} */ (host.parentElement?.querySelector(".absent"));
-    absent.hidden = Boolean(spec);
-    this.drawn.add(host);
-    if (!spec) return;
-    const { data, layout } = this.colored(this.report.resolve(spec));
-    layout.font.family = getComputedStyle(document.body).fontFamily;
-    layout.dragmode = matchMedia("(pointer: coarse)").matches ? false : "zoom";
-    layout.width = undefined;
-    Plotly.react(host, data, layout, CONFIG);
-    // The finding below the plot says what it shows; its tick labels would only be noise.
-    for (const drawing of host.querySelectorAll(".main-svg")) drawing.setAttribute("aria-hidden", "true");
-  }
-
-  /** @param {Record<string, string>} view */
-  redraw(view) {
-    for (const host of this.drawn) this.draw(host, view);
-  }
-
-  /** @param {Record<string, string>} view */
-  drawRest(view) {
-    for (const host of this.hosts) if (!this.drawn.has(host)) this.draw(host, view);
+    const { method, distribution } = this.currentView();
+    return [`${method}/${distribution}`, "*"].find((key) => key in views);
   }
 
   /**
-   * Near the window first, the others one by one whenever the browser has nothing to do.
-   * @param {() => Record<string, string>} currentView
+   * Data and layout of a figure in this view and theme.
+   * @param {PlotlyHost} host
    */
-  watch(currentView) {
-    const near = new IntersectionObserver((entries) => {
+  specOf(host) {
+    const spec = this.report.figures[host.dataset.figure ?? ""][this.variantOf(host) ?? ""];
+    const { data, layout } = this.colored(this.report.resolve(spec));
+    layout.font.family = getComputedStyle(document.body).fontFamily;
+    return { data, layout };
+  }
+
+  /**
+   * What a plot would show if it were drawn now.
+   * @param {PlotlyHost} host
+   */
+  stateOf(host) {
+    return [this.variantOf(host), isDark(), this.width].join();
+  }
+
+  /** @param {PlotlyHost} host */
+  draw(host) {
+    const { data, layout } = this.specOf(host);
+    layout.dragmode = matchMedia("(pointer: coarse)").matches ? false : "zoom";
+    layout.width = this.width;
+    if (this.width) layout.height *= HEIGHT_ON_PAPER;
+    layout.height = heightAt(layout, this.width ?? host.clientWidth);
+    host.style.minHeight = "0";
+    Plotly.react(host, data, layout, CONFIG);
+    // The finding below the plot says what it shows; its tick labels would only be noise.
+    for (const drawing of host.querySelectorAll(".main-svg")) drawing.setAttribute("aria-hidden", "true");
+    this.drawn.set(host, this.stateOf(host));
+  }
+
+  /** The next plot near the window that does not show what it should. */
+  next() {
+    return [...this.near].find((host) => !host.hidden && this.drawn.get(host) !== this.stateOf(host));
+  }
+
+  /** Draw what is near the window, one plot a task. */
+  async drawNear() {
+    if (this.busy || !this.next()) return;
+    this.busy = true;
+    await this.run();
+    for (let host = this.next(); host; host = this.next()) {
+      this.draw(host);
+      await nextTask();
+    }
+    this.busy = false;
+  }
+
+  /** Follow the view and the theme: those near at once, the others when they come near. */
+  update() {
+    for (const host of this.hosts) {
+      host.hidden = this.variantOf(host) === undefined;
+      const absent = /** @type {HTMLElement} */ (host.parentElement?.querySelector(".absent"));
+      absent.hidden = !host.hidden;
+    }
+    this.drawNear();
+  }
+
+  /** Draw plots as the reader comes near them. */
+  watch() {
+    const observer = new IntersectionObserver((entries) => {
       for (const { target, isIntersecting } of entries) {
-        if (!isIntersecting) continue;
-        near.unobserve(target);
         const host = /** @type {PlotlyHost} */ (target);
-        if (!this.drawn.has(host)) this.draw(host, currentView());
+        if (isIntersecting) this.near.add(host);
+        else this.near.delete(host);
       }
-    }, { rootMargin: "600px 0px" });
-    this.hosts.forEach((host) => near.observe(host));
-    const idle = window.requestIdleCallback ?? ((/** @type {() => void} */ act) => setTimeout(act, 50));
-    const next = () => {
-      const host = this.hosts.find((candidate) => !this.drawn.has(candidate));
-      if (!host) return;
-      this.draw(host, currentView());
-      idle(next);
-    };
-    idle(next);
+      this.drawNear();
+    }, { rootMargin: NEAR });
+    this.hosts.forEach((host) => observer.observe(host));
+    this.update();
   }
 
-  /** @param {number} width */
-  fitToPaper(width) {
-    for (const host of this.drawn) {
-      if (host.data) Plotly.relayout(host, { width, autosize: false });
+  /** Inflate Plotly without running it. */
+  async prepare() {
+    this.source ||= await inflate("plotly-source").text();
+  }
+
+  /** Run Plotly; from a blob the browser compiles it beside the page, not in its way. */
+  async run() {
+    if (window.Plotly) return;
+    await this.prepare();
+    await runScript(new Blob([this.source]));
+  }
+
+  /**
+   * Draw all plots before this returns, as the printer asks for it.
+   * @param {number} width in CSS pixels
+   */
+  drawForPrint(width) {
+    if (!window.Plotly && this.source) runText(this.source);
+    this.width = width;
+    if (!window.Plotly) return;
+    for (const host of this.hosts) {
+      if (!host.hidden && this.drawn.get(host) !== this.stateOf(host)) this.draw(host);
     }
   }
 
-  fitToScreen() {
-    for (const host of this.drawn) {
-      if (host.data) Plotly.relayout(host, { width: null, autosize: true });
-    }
+  drawForScreen() {
+    this.width = undefined;
+    this.drawNear();
   }
 }

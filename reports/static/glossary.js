@@ -1,6 +1,6 @@
 // Terms explain themselves: by pointing, by touch, and by the keyboard. Without this script the
 // browser opens a definition at a click, in the middle of the window.
-const NEAR = 8; // pixels between a term and its definition, and between that and the window's edge
+const GAP = 8; // pixels between a term and its definition, and between that and the window's edge
 
 /**
  * Where a box stands below its anchor, or above it where there is no room below.
@@ -9,10 +9,10 @@ const NEAR = 8; // pixels between a term and its definition, and between that an
  * @param {{ width: number, height: number }} room the window's
  */
 function placeBeside(anchor, box, room) {
-  const left = Math.max(NEAR, Math.min(anchor.left, room.width - box.width - NEAR));
-  const below = anchor.bottom + NEAR;
-  const above = anchor.top - NEAR - box.height;
-  return { left, top: below + box.height + NEAR > room.height && above >= 0 ? above : below };
+  const left = Math.max(GAP, Math.min(anchor.left, room.width - box.width - GAP));
+  const below = anchor.bottom + GAP;
+  const above = anchor.top - GAP - box.height;
+  return { left, top: below + box.height + GAP > room.height && above >= 0 ? above : below };
 }
 
 /** Opens the definition of one term at a time. */

@@ -25,17 +25,26 @@ function inflate(id) {
 }
 
 /**
- * Run an inflated script; from a blob the browser compiles it beside the page, not in its way.
- * @param {string} id of the block's element
+ * Run a script; from a blob the browser compiles it beside the page, not in its way.
+ * @param {Blob} text
  */
-async function runInflated(id) {
-  const address = URL.createObjectURL(await inflate(id).blob());
+async function runScript(text) {
   const script = document.createElement("script");
-  script.src = address;
+  script.src = URL.createObjectURL(text);
   await /** @type {Promise<void>} */ (new Promise((resolve, reject) => {
     script.onload = () => resolve();
-    script.onerror = () => reject(new Error(`cannot run ${id}`));
+    script.onerror = () => reject(new Error("cannot run the script"));
     document.head.append(script);
   }));
-  URL.revokeObjectURL(address);
+  URL.revokeObjectURL(script.src);
+}
+
+/**
+ * Run a script before this returns.
+ * @param {string} text
+ */
+function runText(text) {
+  const script = document.createElement("script");
+  script.textContent = text;
+  document.head.append(script);
 }

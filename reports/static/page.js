@@ -2,6 +2,7 @@
 const root = document.documentElement;
 const bar = /** @type {HTMLElement} */ (document.querySelector(".bar"));
 const PAPER_WIDTH = 680;
+const SLICE = 40; // milliseconds of work between two chances for the browser to answer the reader
 
 /**
  * The buttons of a switch.
@@ -63,28 +64,29 @@ function drawTables(report, hosts) {
 }
 
 /**
+ * Draw tables without holding the browser up.
+ * @param {ReportData} report
+ * @param {HTMLElement[]} hosts
+ */
+async function drawInSlices(report, hosts) {
+  let end = performance.now() + SLICE;
+  for (const host of hosts) {
+    drawTables(report, [host]);
+    if (performance.now() < end) continue;
+    await nextTask();
+    end = performance.now() + SLICE;
+  }
+}
+
+/**
  * @param {ReportData} report
  * @param {Figures} figures
  */
 function wirePrinter(report, figures) {
-  /** @type {HTMLDetailsElement[]} */
-  let opened = [];
   printInLight(() => {
-    opened = [...document.querySelectorAll("details")].filter((fold) => !fold.open);
-    for (const fold of opened) fold.open = true;
     drawTables(report, tablesIn(document));
-    if (window.Plotly) {
-      figures.drawRest(view);
-      figures.redraw(view);
-      figures.fitToPaper(PAPER_WIDTH);
-    }
-  }, () => {
-    for (const fold of opened) fold.open = false;
-    if (window.Plotly) {
-      figures.redraw(view);
-      figures.fitToScreen();
-    }
-  });
+    figures.drawForPrint(PAPER_WIDTH);
+  }, () => figures.drawForScreen());
 }
 
 /**
@@ -118,6 +120,11 @@ function settle(stage) {
   root.dataset.ready = stage;
 }
 
+/** @type {() => Promise<void>} */
+const idle = () => new Promise((resolve) => "requestIdleCallback" in window
+  ? requestIdleCallback(() => resolve(), { timeout: 2000 })
+  : setTimeout(resolve, 50));
+
 async function start() {
   showVariants();
   watchBar();
@@ -127,8 +134,8 @@ async function start() {
   wireCopying();
   new Glossary();
   const report = new ReportData(await inflate("report-data").json());
-  const figures = new Figures(report);
-  wireTheme(() => figures.redraw(view));
+  const figures = new Figures(report, () => view);
+  wireTheme(() => figures.update());
   const tables = [...tablesIn(document)];
   const host = /** @type {HTMLElement | null} */ (document.querySelector(".explorer"));
   const explorer = host && new Explorer(host, report);
@@ -138,7 +145,7 @@ async function start() {
     showVariants();
     drawOpenTables();
     explorer?.build(view);
-    figures.redraw(view);
+    figures.update();
   };
   bar.addEventListener("change", () => {
     view = Object.fromEntries(Object.keys(choices).map((name) =>
@@ -164,14 +171,16 @@ async function start() {
     if (fold.open) drawTables(report, tablesIn(fold));
   }, true);
 
-  drawOpenTables();
   explorer?.build(view);
+  await drawInSlices(report, tables.filter(isOpen));
   landing.go(address().place);
   settle("tables");
 
   wirePrinter(report, figures);
-  await runInflated("plotly-source");
-  figures.watch(() => view);
+  figures.watch();
+  new FigureDownloads(figures, report, () => view);
+  await idle();
+  await figures.prepare();
   settle("figures");
 }
 

@@ -1,16 +1,15 @@
 """The report: one HTML file that holds everything it needs, and the tables beside it as CSV."""
 
-import importlib.util
 import json
 import re
-from functools import cache
 from pathlib import Path
 
 from lepp import METHODS, InputError
+from reports.page import plotly
 from reports.page.assembly import assemble
 from reports.page.assets import ICON, environment, static
 from reports.page.blocks import FigureBlock, Section, TableBlock
-from reports.page.data import compress, encode, figure_data, table_data
+from reports.page.data import encode, figure_data, table_data
 from reports.page.evidence import Evidence
 from reports.page.static_table import StaticTable, static_table
 from reports.page.views import distribution_name
@@ -78,7 +77,7 @@ def render(evidence: Evidence) -> str:
             still=still,
             terms=TERMS,
             data=encode(page_data(evidence, parts)),
-            plotly=_plotly(),
+            plotly=plotly.script(),
         )
     )
 
@@ -147,13 +146,3 @@ def _switch(column: Column, titles: dict[str, str]) -> dict:
         short, _, rest = title.partition(" ")
         options.append({"value": value, "short": short, "rest": rest})
     return {"name": column.name, "title": column.label, "options": options}
-
-
-@cache
-def _plotly() -> str:
-    # By its path: importing plotly costs more than all of the page.
-    package = importlib.util.find_spec("plotly")
-    assert package is not None, "plotly is a dependency"
-    assert package.origin is not None, "plotly is a regular package"
-    source = Path(package.origin).parent / "package_data" / "plotly.min.js"
-    return compress(source.read_text(encoding="utf-8"))

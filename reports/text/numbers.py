@@ -3,12 +3,11 @@
 import math
 import re
 
-_SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-_MINUS = "−"
+from reports.text.notation import MINUS, SPACE, TIMES, typeset
+from reports.text.notation import ten_to as ten_to  # part of how numbers are written
+
 _DASH = "–"
-_SPACE = "\u00a0"  # no line ends inside a number
 _HUGE = 1e7  # from here on, decimals say nothing
-_TIMES = f"{_SPACE}×{_SPACE}"
 
 
 def show(value: object, how: str) -> str:
@@ -28,22 +27,26 @@ def show(value: object, how: str) -> str:
     """
     if missing(value):
         return _DASH
-    if how in ("text", "verdict"):
+    if how == "text":
+        return typeset(str(value))
+    if how == "verdict":
         return str(value)
     if how == "name":
         return str(value).replace("_", " ")
     number = float(value)  # type: ignore[arg-type]  # a numeric format promises a number
     kind, digits = _split(how)
     if not math.isfinite(number):
-        return f"{_MINUS if number < 0 else ''}∞"
+        return f"{MINUS if number < 0 else ''}∞"
     if kind == "int":
         return _signed(f"{number:,.0f}")
+    if kind == "df":
+        return _signed(f"{number:,.{0 if number.is_integer() else 1}f}")
     if kind == "fixed" and abs(number) >= _HUGE:
         return significant(number, 3)
     if kind == "fixed":
         return _signed(f"{number:,.{digits}f}")
     if kind == "percent":
-        return _signed(f"{100 * number:,.{digits}f}") + f"{_SPACE}%"
+        return percent(number, digits)
     if kind == "p":
         return p_value(number)
     if kind == "log10p":
@@ -66,13 +69,18 @@ def significant(number: float, digits: int) -> str:
     power = int(exponent)
     if -4 <= power < 6:
         return _signed(f"{number:,.{max(0, digits - 1 - power)}f}")
-    return f"{_signed(mantissa)}{_TIMES}{ten_to(power)}"
+    return f"{_signed(mantissa)}{TIMES}{ten_to(power)}"
+
+
+def percent(share: float, digits: int) -> str:
+    """Write a share times 100, with so many decimals."""
+    return _signed(f"{100 * share:,.{digits}f}") + f"{SPACE}%"
 
 
 def p_value(p: float) -> str:
     """Write a p-value: four decimals, and a power of ten where those would show only zeros."""
     if p == 0:
-        return f"<{_SPACE}{ten_to(-307)}"
+        return f"<{SPACE}{ten_to(-307)}"
     return f"{p:.4f}" if p >= 0.001 else significant_power(math.log10(p))
 
 
@@ -87,12 +95,7 @@ def significant_power(log10_value: float) -> str:
     mantissa = f"{10 ** (log10_value - power):.1f}"
     if mantissa == "10.0":
         mantissa, power = "1.0", power + 1
-    return f"{mantissa}{_TIMES}{ten_to(power)}"
-
-
-def ten_to(power: int) -> str:
-    """Write a power of ten."""
-    return "10" + str(power).translate(_SUPERSCRIPT)
+    return f"{mantissa}{TIMES}{ten_to(power)}"
 
 
 def count(number: float, noun: str, plural: str = "") -> str:
@@ -137,5 +140,5 @@ def _signed(text: str) -> str:
     """Put a real minus sign, and none before a number that is rounded to zero."""
     if text.startswith("-"):
         digits = text[1:]
-        return _MINUS + digits if re.search(r"[1-9]", digits) else digits
+        return MINUS + digits if re.search(r"[1-9]", digits) else digits
     return text

@@ -16,7 +16,7 @@ import pandas as pd
 Row = dict[str, object]
 
 _WORDS = ("text", "name", "verdict")
-_FORMAT = re.compile(rf"{'|'.join(_WORDS)}|int|p|log10p|fixed\d+|g\d+|percent\d+")
+_FORMAT = re.compile(rf"{'|'.join(_WORDS)}|int|df|p|log10p|fixed\d+|g\d+|percent\d+")
 _QUOTED = re.compile(r'[",\r\n]')
 
 
@@ -41,9 +41,9 @@ class Column:
         Unit of measurement, empty where there is none.
     format : str
         How a cell is shown: ``text``, ``name`` (of a method or distribution), ``verdict`` (a word
-        that is good or bad news), ``int``, ``fixedN`` (N decimals), ``gN`` (N significant digits),
-        ``percentN`` (a share times 100, N decimals), ``p`` (a p-value) or ``log10p`` (its decimal
-        logarithm).
+        that is good or bad news), ``int``, ``df`` (degrees of freedom, whole or not), ``fixedN``
+        (N decimals), ``gN`` (N significant digits), ``percentN`` (a share times 100, N decimals),
+        ``p`` (a p-value) or ``log10p`` (its decimal logarithm).
     """
 
     name: str

@@ -8,7 +8,7 @@ from study.analysis.building import Population, rows_by_population
 from study.analysis.path_lengths import counts_by_task
 from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Declaration, Row, select
 from study.statistics.groups import NotEnough
-from study.statistics.intervals import mean_interval
+from study.statistics.intervals import mean_interval, ratio_interval
 from study.statistics.thresholds import LEVEL
 
 REGIONS = Declaration(
@@ -45,9 +45,12 @@ REGION_SIZES = Declaration(
         Column("region_size", "Size of the region", "triangles", "int"),
         Column("count", "Regions", "regions", "int"),
         Column("share", "Share of the regions", "", "percent3"),
+        Column("share_low", f"{LEVEL} from", "", "percent3"),
+        Column("share_high", f"{LEVEL} to", "", "percent3"),
         Column("share_of_triangles", "Share of the triangles", "", "percent3"),
     ),
-    note="All triangulations of a method and distribution together.",
+    note="All triangulations of a method and distribution together; the intervals are of ratios of "
+    "sums over triangulations.",
 )
 
 
@@ -74,12 +77,17 @@ def region_sizes(one: Population) -> Iterator[Row]:
     frame = select(one.data.regions, one.key)
     if frame.empty:
         raise NotEnough("no triangulation has succeeded")
-    counts = counts_by_task(frame, "region_size").sum(axis=0)
+    by_task = counts_by_task(frame, "region_size")
+    regions = by_task.sum(axis=1)
+    counts = by_task.sum(axis=0)
     triangles = counts * np.arange(len(counts))
     for size in np.flatnonzero(counts):
+        share, _, low, high = ratio_interval(by_task[:, size], regions)
         yield {
             "region_size": int(size),
             "count": int(counts[size]),
-            "share": counts[size] / counts.sum(),
+            "share": share,
+            "share_low": low,
+            "share_high": high,
             "share_of_triangles": triangles[size] / triangles.sum(),
         }

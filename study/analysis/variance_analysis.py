@@ -22,7 +22,7 @@ ANOVA = Declaration(
         DISTRIBUTION,
         Column("test", "Test"),
         Column("df_group", "Df, groups", "", "int"),
-        Column("df_residual", "Df, residuals", "", "g6"),
+        Column("df_residual", "Df, residuals", "", "df"),
         Column("statistic", "F or H", "", "fixed2"),
         Column("p", "p", "", "p"),
         Column("log10_p", "log10 p", "", "log10p"),

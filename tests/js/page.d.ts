@@ -9,7 +9,7 @@ interface PlotlyHost extends HTMLElement {
 
 declare const Plotly: {
   react(host: HTMLElement, data: object[], layout: object, config: object): void;
-  relayout(host: HTMLElement, layout: object): void;
+  toImage(figure: object, options: object): Promise<string>;
 };
 
 interface Window {

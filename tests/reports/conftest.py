@@ -90,8 +90,16 @@ def _local(url: str, complaints: list[str]) -> None:
 
 
 def draw_all(page: Page) -> None:
-    """Wait until every plot that has data is drawn."""
-    page.wait_for_function(
-        "[...document.querySelectorAll('[data-figure]')]"
-        ".every(host => host.hidden || host.querySelector('.main-svg'))"
+    """Go to every plot that has data and wait until it is drawn; then back to the top."""
+    page.evaluate(
+        """async () => {
+            for (const host of document.querySelectorAll('[data-figure]')) {
+                if (host.hidden) continue;
+                host.scrollIntoView({ block: 'center', behavior: 'instant' });
+                while (!host.querySelector('.main-svg')) {
+                    await new Promise(resolve => setTimeout(resolve, 20));
+                }
+            }
+            scrollTo({ top: 0, behavior: 'instant' });
+        }"""
     )

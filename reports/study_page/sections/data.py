@@ -4,10 +4,12 @@ from reports.page import style
 from reports.page.blocks import ALWAYS, FigureBlock, Section, Subsection, TableBlock, per_view
 from reports.page.evidence import Evidence
 from reports.page.style import Spec
-from reports.page.views import View, distribution_name
+from reports.page.views import View, distribution_name, distribution_word
 from reports.study_page.tables import SAMPLED_POINTS, TRIANGULATIONS
 from reports.text.numbers import count, listed, show
+from reports.text.words import LEVEL
 from study.analysis.group_summaries import GROUPS
+from study.analysis.table import METHOD
 
 
 def section(evidence: Evidence) -> Section:
@@ -21,7 +23,7 @@ def section(evidence: Evidence) -> Section:
             Subsection(
                 "means",
                 "The mean of every triangulation",
-                (_figure_4(evidence), _figure_5(evidence)),
+                (_distributions(evidence), _figure_4(evidence), _figure_5(evidence)),
             ),
         ),
     )
@@ -41,17 +43,17 @@ def _figure_3(evidence: Evidence) -> FigureBlock:
             hovertemplate="%{x:.3f}, %{y:.3f}<extra></extra>",
         )
         number = "" if k == 0 else str(k + 1)
-        same_scale = {"scaleanchor": f"x{number}", "scaleratio": 1, "constrain": "domain"}
+        square = {"scaleanchor": f"x{number}", "scaleratio": 1}
         parts.append(
             style.Panel(
                 [dots],
                 style.axis("", constrain="domain"),
-                style.axis("", **same_scale),
+                style.axis("", constrain="domain", constraintoward="top", **square),
                 distribution_name(name),
             )
         )
     many = len(names) > 1
-    figure = style.panels(parts, columns=2 if many else 1, height=700 if many else 420)
+    figure = style.panels(parts, columns=2 if many else 1, height=700 if many else 420, ratio=1.2)
     rows = evidence.rows(SAMPLED_POINTS)
     each = len(rows) // len(names)
     words = listed([_shape(name, evidence.design.correlation) for name in names])
@@ -74,6 +76,67 @@ def _shape(name: str, correlation: float) -> str:
         ),
         "exponential": "the exponential ones crowd into the corner at the origin",
     }[name]
+
+
+def _distributions(evidence: Evidence) -> FigureBlock:
+    """Draw the means of all distributions, triangulated by the view's method."""
+
+    def draw(view: View) -> Spec | None:
+        traces = []
+        for series, name in enumerate(evidence.design.distributions):
+            groups = evidence.rows(GROUPS, View(view.method, name))
+            traces.append(
+                style.scatter(
+                    x=groups.column("n_points"),
+                    y=groups.column("mean_lepp"),
+                    mode="lines+markers",
+                    name=distribution_name(name),
+                    line=style.line(series),
+                    marker=style.marker(series),
+                    error_y=style.interval(
+                        groups["mean_lepp"],
+                        groups["mean_low"],
+                        groups["mean_high"],
+                        style.SERIES[series % len(style.SERIES)],
+                    ),
+                    hovertemplate="%{x:,} points: %{y:.4f}<extra>"
+                    + distribution_name(name)
+                    + "</extra>",
+                )
+            )
+        return style.plot(
+            *traces,
+            xaxis=style.axis("Number of points"),
+            yaxis=style.axis("Mean LEPP size"),
+            height=460,
+        )
+
+    def say(view: View) -> str | None:
+        largest = max(evidence.design.sizes)
+        rows = evidence.rows(GROUPS, method=view.method, n_points=largest).frame
+        rows = rows[rows["mean_lepp"].notna()]
+        if rows.empty:
+            return None
+        means = [
+            f"{show(row.mean_lepp, 'fixed4')} ({distribution_word(row.distribution)})"
+            for row in rows.itertuples()
+        ]
+        if len(means) == 1:
+            return f"At {largest:,} points the mean LEPP size is {means[0]}."
+        gap = rows["mean_lepp"].max() - rows["mean_lepp"].min()
+        return (
+            f"At {largest:,} points the mean LEPP sizes of {view.method_word} triangulations are "
+            f"{listed(means)}: they lie within {show(gap, 'fixed4')} of one another."
+        )
+
+    return FigureBlock(
+        id="figure-distributions",
+        title="Mean LEPP size in all distributions",
+        specs=per_view(evidence.views, draw),
+        alternatives=per_view(evidence.views, say),
+        reading=f"Means of the groups with {LEVEL} intervals.",
+        data=(TableBlock(GROUPS, "Data: the groups of all distributions", follows=(METHOD.name,)),),
+    )
 
 
 def _figure_4(evidence: Evidence) -> FigureBlock:
@@ -108,7 +171,7 @@ def _figure_4(evidence: Evidence) -> FigureBlock:
         id="figure-4",
         title="Figure 4. Mean LEPP size of every triangulation",
         specs=per_view(evidence.views, draw),
-        alternatives=per_view(evidence.views, lambda view: _spread(evidence, view)),
+        alternatives=per_view(evidence.views, lambda view: _range(evidence, view)),
         reading="A dot is one triangulation; it is drawn at its number of points.",
         data=(TableBlock(TRIANGULATIONS, "Data of Figures 4 and 5: every triangulation"),),
     )
@@ -146,6 +209,19 @@ def _figure_5(evidence: Evidence) -> FigureBlock:
                 columns=("n_points", "triangulations", "lowest", "q1", "median", "q3", "highest"),
             ),
         ),
+    )
+
+
+def _range(evidence: Evidence, view: View) -> str | None:
+    means = evidence.rows(TRIANGULATIONS, view)
+    if means.empty:
+        return None
+    lowest = means.frame.loc[means["mean_lepp"].idxmin()]
+    highest = means.frame.loc[means["mean_lepp"].idxmax()]
+    return (
+        f"The means of {count(len(means), 'triangulation')} lie between "
+        f"{show(lowest['mean_lepp'], 'fixed4')}, at {lowest['n_points']:,} points, and "
+        f"{show(highest['mean_lepp'], 'fixed4')}, at {highest['n_points']:,}."
     )
 
 

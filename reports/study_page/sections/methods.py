@@ -12,7 +12,7 @@ from reports.page.views import View, distribution_word
 from reports.study_page.sections.theory import LONG
 from reports.study_page.tables import TABLE_4, statements_compared_by
 from reports.text.numbers import listed, show
-from reports.text.words import every
+from reports.text.words import LEVEL, every
 from study.analysis.group_summaries import GROUPS
 from study.analysis.method_comparison import GROWTH, MEAN_LEPP, METHODS_COMPARED, SHARE_P
 from study.analysis.path_lengths import LAW, TERMINATION
@@ -233,11 +233,13 @@ def _lines(
 def _rates(evidence: Evidence) -> FigureBlock:
     def draw(evidence: Evidence, distribution: str) -> Spec | None:
         traces = []
+        largest = 1
         for series, view in enumerate(_views(evidence, distribution)):
             rows = evidence.rows(TERMINATION, view)
             if rows.empty:
                 return None
             steps = rows.frame[(rows["lepp_size"] >= 2) & rows["low"].notna()]
+            largest = max([largest, *steps["lepp_size"]])
             traces.append(
                 style.scatter(
                     x=steps["lepp_size"],
@@ -246,12 +248,15 @@ def _rates(evidence: Evidence) -> FigureBlock:
                     name=view.method_title,
                     line=style.line(series),
                     marker=style.marker(series),
+                    error_y=style.interval(
+                        steps["rate"], steps["low"], steps["high"], style.SERIES[series]
+                    ),
                     hovertemplate="size %{x}: %{y:.4f}<extra>" + view.method_title + "</extra>",
                 )
             )
         return style.plot(
             *traces,
-            xaxis=style.axis("LEPP size reached", dtick=1),
+            xaxis=style.whole("LEPP size reached", largest),
             yaxis=style.axis("Share of paths that end there", range=[0, 1.02]),
         )
 
@@ -274,7 +279,7 @@ def _rates(evidence: Evidence) -> FigureBlock:
         title="Termination rates by triangulation",
         specs=_by_distribution(evidence, draw),
         alternatives=_by_distribution(evidence, say),
-        reading="Theorem 1 takes each line to be level.",
+        reading=f"Bars are {LEVEL} intervals. Theorem 1 takes each line to be level.",
         data=(
             TableBlock(
                 TERMINATION,
@@ -288,10 +293,12 @@ def _rates(evidence: Evidence) -> FigureBlock:
 def _sizes(evidence: Evidence) -> FigureBlock:
     def draw(evidence: Evidence, distribution: str) -> Spec | None:
         traces = []
+        largest = 1
         for series, view in enumerate(_views(evidence, distribution)):
             rows = evidence.rows(LAW, view)
             if rows.empty:
                 return None
+            largest = max([largest, *rows["lepp_size"]])
             traces.append(
                 style.scatter(
                     x=rows.column("lepp_size"),
@@ -300,12 +307,12 @@ def _sizes(evidence: Evidence) -> FigureBlock:
                     name=view.method_title,
                     line=style.line(series),
                     marker=style.marker(series),
-                    hovertemplate="size %{x}: %{y:.3%}<extra>" + view.method_title + "</extra>",
+                    hovertemplate="size %{x}: %{y}<extra>" + view.method_title + "</extra>",
                 )
             )
         return style.plot(
             *traces,
-            xaxis=style.axis("LEPP size", dtick=1),
+            xaxis=style.whole("LEPP size", largest),
             yaxis=style.powers("Share of triangles"),
         )
 

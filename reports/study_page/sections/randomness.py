@@ -74,7 +74,7 @@ def _uniformity(evidence: Evidence) -> FigureBlock:
         tests = list(dict.fromkeys(rows["test"]))
         return style.panels(
             [_evenness(evidence, view, test, first=test == tests[0]) for test in tests],
-            height=500,
+            height=520,
             bargap=0.25,
         )
 
@@ -109,20 +109,24 @@ def _evenness(evidence: Evidence, view: View, test: str, *, first: bool) -> styl
         rows = evidence.rows(UNIFORMITY, view, test=test, coordinate=coordinate)
         traces.append(
             style.bars(
-                x=rows.column("p_from"),
+                x=(rows["p_from"] + rows["p_to"]) / 2,  # bars are drawn about their x
                 y=rows.column("count"),
                 name=coordinate,
                 offsetgroup=coordinate,
                 legendgroup=coordinate,
                 showlegend=first,
                 marker={"color": style.SERIES[series], "pattern": {"shape": ("", "/")[series]}},
-                hovertemplate="p from %{x:.2f}: %{y} tests<extra></extra>",
+                customdata=rows.column("p_from"),
+                hovertemplate="p from %{customdata:.2f}: %{y} tests<extra>"
+                + coordinate
+                + "</extra>",
             )
         )
+    expected = float(rows["expected"].iloc[0])
     traces.append(
         style.scatter(
-            x=rows.column("p_from"),
-            y=rows.column("expected"),
+            x=[0, 1],
+            y=[expected, expected],
             mode="lines",
             name="expected",
             line={"color": style.INK, "dash": "dash", "width": 1.5},
@@ -130,4 +134,5 @@ def _evenness(evidence: Evidence, view: View, test: str, *, first: bool) -> styl
             hoverinfo="skip",
         )
     )
-    return style.Panel(traces, style.axis("p-value"), style.axis("Tests"), f"{test} test")
+    bins = style.axis("p-value", range=[0, 1], dtick=0.2)
+    return style.Panel(traces, bins, style.axis("Tests"), f"{test} test")

@@ -6,6 +6,7 @@ from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View
 from reports.text.numbers import show
+from reports.text.words import LEVEL
 from study.analysis.terminal_regions import REGION_SIZES, REGIONS
 
 
@@ -71,7 +72,10 @@ def _sizes(evidence: Evidence) -> FigureBlock:
                 mode="markers",
                 name="share of the regions",
                 marker=style.marker(0, 6),
-                hovertemplate="%{x} triangles: %{y:.3%}<extra></extra>",
+                error_y=style.interval(
+                    rows["share"], rows["share_low"], rows["share_high"], style.SERIES[0]
+                ),
+                hovertemplate="%{x} triangles: %{y}<extra></extra>",
             ),
             xaxis=style.axis("Triangles in the region"),
             yaxis=style.powers("Share of the regions"),
@@ -96,6 +100,7 @@ def _sizes(evidence: Evidence) -> FigureBlock:
         title="Sizes of terminal-edge regions",
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
-        reading="The vertical scale is logarithmic.",
+        reading=f"Bars are {LEVEL} intervals, mostly narrower than the markers. The vertical scale "
+        "is logarithmic.",
         data=(TableBlock(REGION_SIZES, "Data: sizes of the regions"),),
     )

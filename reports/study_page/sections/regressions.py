@@ -132,15 +132,9 @@ def _figure_6(evidence: Evidence) -> FigureBlock:
                 mode="markers",
                 name="groups",
                 marker={"color": style.INK, "size": 7},
-                error_y={
-                    "type": "data",
-                    "symmetric": False,
-                    "thickness": 1,
-                    "width": 0,
-                    "color": style.MUTED,
-                    "array": groups["mean_high"] - groups["mean_lepp"],
-                    "arrayminus": groups["mean_lepp"] - groups["mean_low"],
-                },
+                error_y=style.interval(
+                    groups["mean_lepp"], groups["mean_low"], groups["mean_high"]
+                ),
                 hovertemplate="%{x:,} points: %{y:.4f}<extra></extra>",
             ),
             *curves,
@@ -231,7 +225,9 @@ def _curves(evidence: Evidence, view: View, part: str) -> list[Spec]:
                     y=rows.column("prediction"),
                     mode="lines",
                     name=model,
-                    line=style.line(series),
+                    # Pale and wide, the first is seen beside one that lies on it.
+                    line=style.line(series, 2 if series else 5),
+                    opacity=1 if series else 0.5,
                     hovertemplate="%{x:,} points: %{y:.4f}<extra>" + model + "</extra>",
                 )
             )

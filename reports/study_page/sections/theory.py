@@ -114,15 +114,16 @@ def _types(evidence: Evidence) -> FigureBlock:
                     name=f"type {name}",
                     line=style.line(series),
                     marker=style.marker(series),
-                    hovertemplate="%{x:,} points: %{y:.2%}<extra>type " + name + "</extra>",
+                    error_y=style.interval(
+                        rows["share"], rows["low"], rows["high"], style.SERIES[series]
+                    ),
+                    hovertemplate="%{x:,} points: %{y:.4f}<extra>type " + name + "</extra>",
                 )
             )
         return style.plot(
             *traces,
             xaxis=style.axis("Number of points"),
-            yaxis=style.axis(
-                "Share of longest-edge neighbours", tickformat=".0%", rangemode="tozero"
-            ),
+            yaxis=style.percents("Share of longest-edge neighbours", rangemode="tozero"),
             levels=[style.Level(LEAST_P, f"p = {LEAST_P_TEXT}")],
         )
 
@@ -144,7 +145,8 @@ def _types(evidence: Evidence) -> FigureBlock:
         title="Types of longest-edge neighbours",
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
-        reading="The dotted line is the least share of type C that Theorem 2 supposes.",
+        reading=f"Bars are {LEVEL} intervals, mostly narrower than the markers; the dotted line is "
+        "the least share of type C that Theorem 2 supposes.",
         data=(TableBlock(NEIGHBOR_TYPES, "Data: shares of the types by number of points"),),
     )
 
@@ -201,7 +203,8 @@ def _moments(evidence: Evidence) -> FigureBlock:
         title="The four moments, measured and by Theorem 1",
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
-        reading="The scales differ; what matters is the distance between the two lines of a panel.",
+        reading=f"Bars are {LEVEL} intervals, mostly narrower than the markers. The scales differ; "
+        "what matters is the distance between the two lines of a panel.",
         data=(TableBlock(THEOREM_1, "Data: moments by number of points"),),
     )
 
@@ -219,6 +222,15 @@ def _moment(evidence: Evidence, view: View, statistic: str) -> style.Panel:
             line=style.line(series),
             marker=style.marker(series, 5),
             hovertemplate="%{x:,} points: %{y:.4f}<extra>" + name + "</extra>",
+            **(
+                {
+                    "error_y": style.interval(
+                        rows[column], rows["low"], rows["high"], style.SERIES[0]
+                    )
+                }
+                if column == "measured"
+                else {}
+            ),
         )
         for series, (column, name) in enumerate(
             (("measured", "measured"), ("predicted", "Theorem 1"))
@@ -244,18 +256,10 @@ def _termination(evidence: Evidence) -> FigureBlock:
                 name="measured",
                 line=style.line(0),
                 marker=style.marker(0),
-                error_y={
-                    "type": "data",
-                    "symmetric": False,
-                    "array": rows["high"] - rows["rate"],
-                    "arrayminus": rows["rate"] - rows["low"],
-                    "thickness": 1.5,
-                    "width": 3,
-                    "color": style.SERIES[0],
-                },
+                error_y=style.interval(rows["rate"], rows["low"], rows["high"], style.SERIES[0]),
                 hovertemplate="size %{x}: %{y:.4f}<extra></extra>",
             ),
-            xaxis=style.axis("LEPP size reached", dtick=1),
+            xaxis=style.whole("LEPP size reached", int(rows["lepp_size"].max())),
             yaxis=style.axis("Share of paths that end there", range=[0, 1.02]),
             levels=[style.Level(p, f"Theorem 1: p\u00a0=\u00a0{show(p, 'fixed4')}")],
         )
@@ -314,7 +318,7 @@ def _law(evidence: Evidence) -> FigureBlock:
                 y=rows.column("share"),
                 name="measured",
                 marker={"color": style.SERIES[0]},
-                hovertemplate="size %{x}: %{y:.3%}<extra>measured</extra>",
+                hovertemplate="size %{x}: %{y}<extra>measured</extra>",
             ),
             style.scatter(
                 x=rows.column("lepp_size"),
@@ -323,9 +327,9 @@ def _law(evidence: Evidence) -> FigureBlock:
                 name="geometric law of the measured p",
                 line=style.line(1),
                 marker=style.marker(1),
-                hovertemplate="size %{x}: %{y:.3%}<extra>geometric law</extra>",
+                hovertemplate="size %{x}: %{y}<extra>geometric law</extra>",
             ),
-            xaxis=style.axis("LEPP size", dtick=1),
+            xaxis=style.whole("LEPP size", int(rows["lepp_size"].max())),
             yaxis=style.powers("Share of triangles"),
             bargap=0.3,
         )

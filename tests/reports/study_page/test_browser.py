@@ -1,20 +1,45 @@
 """The page in a real browser: drawn, switched, linked, explored, downloaded and printed."""
 
+import base64
+import re
+import struct
 from collections.abc import Callable
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 from conftest import draw_all
 from playwright.sync_api import Page
 from tiny_runs import DESIGN
 
+from reports.page import plotly
 from reports.study_page.gather import gather
 from reports.text.numbers import show
 
 pytestmark = pytest.mark.browser
 
 Open = Callable[..., Page]
+#: What a number or a formula is not written with on the page.
+FOREIGN = re.compile(r"sqrt|\^|\de[+-]?\d|log10|\brho\b|(?<![\w)\]])-\d|\d ?%| - ")
+#: Colour of an image's upper right corner, which no drawing reaches.
+CORNER = """async (bytes) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${bytes}`;
+    await image.decode();
+    const canvas = document.createElement('canvas');
+    [canvas.width, canvas.height] = [image.width, image.height];
+    const context = canvas.getContext('2d');
+    context.drawImage(image, 0, 0);
+    return [...context.getImageData(image.width - 1, 0, 1, 1).data];
+}"""
+MOST_PAGES = 25
 SECOND = DESIGN.distributions[1]
+#: Lengths of the tasks longer than 50 ms, in milliseconds.
+LONG_TASKS = """new Promise(resolve => {
+    new PerformanceObserver(list => resolve(list.getEntries().map(e => Math.round(e.duration))))
+        .observe({ type: 'longtask', buffered: true });
+    setTimeout(() => resolve([]), 200);
+})"""
 
 
 def shown_rows(page: Page, table: str) -> list[list[str]]:
@@ -41,23 +66,65 @@ def test_everything_is_drawn_and_fits(open_report: Open, width: int) -> None:
         assert table.locator("tbody tr").count() > 0, table.get_attribute("data-table")
 
 
-def test_text_and_tables_do_not_wait_for_plots(open_report: Open) -> None:
+def drawn_figures(page: Page) -> list[str]:
+    return page.evaluate(
+        """[...document.querySelectorAll('[data-figure]')]
+            .filter(host => host.querySelector('.main-svg')).map(host => host.dataset.figure)"""
+    )
+
+
+def near_figures(page: Page) -> list[str]:
+    """Figures at most 600 pixels above or below the window."""
+    return page.evaluate(
+        """[...document.querySelectorAll('[data-figure]')].filter(host => {
+            const { top, bottom } = host.getBoundingClientRect();
+            return !host.hidden && bottom > -600 && top < innerHeight + 600;
+        }).map(host => host.dataset.figure)"""
+    )
+
+
+def test_plotly_runs_when_a_figure_is_near_and_draws_no_other(
+    open_report: Open, capsys: pytest.CaptureFixture[str]
+) -> None:
     page = open_report()
     order = page.evaluate("performance.getEntriesByType('mark').map(mark => mark.name)")
     assert order == ["tables", "figures"]
+    assert page.locator(".explorer polygon").count() > 50
+    assert page.evaluate("scrollY") == 0
+    assert near_figures(page) == []
+    page.wait_for_timeout(500)  # long enough to draw them all
+    assert page.evaluate("typeof Plotly") == "undefined"
+    lengths = page.evaluate(LONG_TASKS)
+    ready = page.evaluate("Math.round(performance.getEntriesByName('tables')[0].startTime)")
+    with capsys.disabled():
+        print(
+            f"\n  page: tables after {ready} ms; longest task {max(lengths, default=0)} ms, total "
+            f"blocking time {sum(length - 50 for length in lengths)} ms before scrolling"
+        )
+    hosts = page.locator("[data-figure]")
+    hosts.nth(hosts.count() // 2).scroll_into_view_if_needed()
+    page.wait_for_function("window.Plotly && document.querySelector('.main-svg')")
+    page.wait_for_timeout(500)
+    assert drawn_figures(page) == near_figures(page)
+    assert 0 < len(drawn_figures(page)) < hosts.count()
+    kinds = page.evaluate("Object.keys(Plotly.PlotSchema.get().traces)")
+    assert sorted(kinds) == sorted(plotly.TRACES)
 
 
 def test_switch_acts_on_the_whole_page_and_on_the_address(open_report: Open) -> None:
     page = open_report()
     draw_all(page)
     before = (page.locator(".finding:visible").all_inner_texts(), shown_rows(page, "table_4"))
+    page.locator("[data-figure=figure-4]").scroll_into_view_if_needed()
     drawn = page.evaluate("document.querySelector('[data-figure=figure-4]').data[0].y[0]")
     page.get_by_role("radio", name="Bivariate normal").check()
     assert f"distribution={SECOND}" in page.url
     after = (page.locator(".finding:visible").all_inner_texts(), shown_rows(page, "table_4"))
     assert before[0] != after[0]
     assert before[1] != after[1]
-    assert page.evaluate("document.querySelector('[data-figure=figure-4]').data[0].y[0]") != drawn
+    page.wait_for_function(
+        f"document.querySelector('[data-figure=figure-4]').data[0].y[0] !== {drawn}"
+    )
     assert "Bivariate normal" in page.locator("#announcement").inner_text()
     page.go_back()
     page.wait_for_function("document.body.dataset.view.endsWith('/uniform')")
@@ -156,6 +223,54 @@ def test_csv_downloads_are_the_files_on_disk(open_report: Open, report: Path) ->
         assert Path(started.value.path()).read_bytes() == on_disk.read_bytes()
 
 
+@pytest.mark.parametrize(
+    ("scheme", "figure"),
+    [("light", "figure-1"), ("dark", "figure-2"), ("light", "figure-4"), ("dark", "figure-pairs")],
+)
+def test_a_figure_can_be_saved_in_the_theme_of_the_page(
+    open_report: Open, scheme: str, figure: str
+) -> None:
+    page = open_report(color_scheme=scheme, viewport={"width": 390, "height": 800})
+    place = page.locator(f"#{figure}")
+    view = "" if figure == "figure-2" else f"-uniform-{DESIGN.methods[0]}"
+    title = " ".join(place.locator("h4").inner_text().split())
+    paper = page.evaluate("getComputedStyle(document.body).backgroundColor")
+
+    def saved(kind: str) -> tuple[str, bytes]:
+        with page.expect_download() as started:
+            place.locator(f"button[data-save={kind}]").first.click()
+        return started.value.suggested_filename, Path(started.value.path()).read_bytes()
+
+    name, text = saved("svg")
+    assert name == f"lepp-{figure}{view}.svg"
+    drawing = ElementTree.fromstring(text)
+    assert drawing.tag == "{http://www.w3.org/2000/svg}svg"
+    assert drawing[0].get("fill") == paper
+    assert drawing[1].text == title
+    assert b"var(--" not in text
+    name, pixels = saved("png")
+    assert name == f"lepp-{figure}{view}.png"
+    width, height = struct.unpack(">II", pixels[16:24])
+    assert (width, height) == tuple(
+        2 * float(drawing.get(side, "")) for side in ("width", "height")
+    )
+    corner = page.evaluate(CORNER, base64.b64encode(pixels).decode())
+    assert f"rgb({', '.join(map(str, corner[:3]))})" == paper
+    assert corner[3] == 255
+    assert saved("csv")[0].startswith(f"lepp-{figure}")
+
+
+def test_the_data_of_a_figure_are_those_shown(open_report: Open, report: Path) -> None:
+    page = open_report(f"#distribution={SECOND}")
+    with page.expect_download() as started:
+        page.locator("#figure-pairs button[data-save=csv]").click()
+    rows = Path(started.value.path()).read_text(encoding="utf-8").splitlines()
+    every = (report.parent / "tables/pairs.csv").read_text(encoding="utf-8").splitlines()
+    shown = [row for row in every[1:] if row.startswith(f"{DESIGN.methods[0]},{SECOND},")]
+    assert rows == [every[0], *shown]
+    assert 0 < len(shown) < len(every) - 1
+
+
 def test_cells_show_the_texts_of_the_tables(open_report: Open, run_directory: Path) -> None:
     """Table 4 of the first view, cell by cell; and the sense of verdicts."""
     page = open_report()
@@ -189,16 +304,41 @@ def test_the_script_asks_for_no_column_that_is_not_there(open_report: Open) -> N
     ]
 
 
+def test_numbers_and_formulas_have_one_notation(open_report: Open) -> None:
+    """All text of the page, of every view and fold, and that of the plots."""
+    page = open_report()
+    page.evaluate("document.querySelectorAll('details').forEach(fold => fold.open = true)")
+    page.wait_for_function(
+        "[...document.querySelectorAll('[data-table]')].every(host => host.querySelector('table'))"
+    )
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")  # draws all plots
+    texts = page.evaluate(
+        """() => {
+            const main = document.querySelector('main');
+            const nodes = document.createTreeWalker(main, NodeFilter.SHOW_TEXT);
+            const texts = [];
+            while (nodes.nextNode()) {
+                const parent = nodes.currentNode.parentElement;
+                if (!parent.closest('code, pre, style')) texts.push(nodes.currentNode.textContent);
+            }
+            return texts;
+        }"""
+    )
+    assert len(texts) > 1000
+    assert sorted({text.strip() for text in texts if FOREIGN.search(text)}) == []
+
+
 def test_dark_theme_follows_the_system_and_the_button(open_report: Open) -> None:
-    def paint(page: Page) -> tuple[str, str]:
-        return page.evaluate(
-            """() => [getComputedStyle(document.body).backgroundColor,
-                document.querySelector('[data-figure=figure-4]').layout.font.color]"""
-        )
+    colors = """() => [getComputedStyle(document.body).backgroundColor,
+        document.querySelector('[data-figure=figure-4]').layout.font.color]"""
+
+    def paint(page: Page) -> list[str]:
+        draw_all(page)
+        page.locator("[data-figure=figure-4]").scroll_into_view_if_needed()
+        page.wait_for_timeout(300)  # those near are drawn one by one
+        return page.evaluate(colors)
 
     light, dark = open_report(color_scheme="light"), open_report(color_scheme="dark")
-    draw_all(light)
-    draw_all(dark)
     lit, unlit = paint(light), paint(dark)
     assert lit[0] != unlit[0]
     assert lit[1] != unlit[1]
@@ -206,33 +346,38 @@ def test_dark_theme_follows_the_system_and_the_button(open_report: Open) -> None
     assert paint(light) == unlit
     light.reload()
     light.wait_for_selector("html[data-ready='figures']", state="attached")
-    draw_all(light)
     assert paint(light) == unlit
 
 
-def test_print_has_every_fold_and_figure(open_report: Open, tmp_path: Path) -> None:
+def test_a_figure_that_was_far_away_follows_the_theme_when_it_comes_near(
+    open_report: Open,
+) -> None:
+    page = open_report(color_scheme="light")
+    draw_all(page)  # and go back to the top
+    color = "document.querySelector('[data-figure=figure-4]').layout.font.color"
+    before = page.evaluate(color)
+    page.get_by_role("button", name="Dark").click()
+    page.wait_for_timeout(300)
+    assert page.evaluate(color) == before
+    page.locator("[data-figure=figure-4]").scroll_into_view_if_needed()
+    page.wait_for_function(f"{color} !== '{before}'")
+
+
+def test_a_print_out_has_every_figure_in_light(open_report: Open, tmp_path: Path) -> None:
     page = open_report(color_scheme="dark")
-    folds = page.locator("details").count()
-    assert page.locator("details[open]").count() == 0
+    assert page.evaluate("typeof Plotly") == "undefined"  # printing runs it
     page.evaluate("dispatchEvent(new Event('beforeprint'))")
-    assert page.locator("details[open]").count() == folds
-    assert page.evaluate(
-        "[...document.querySelectorAll('[data-table]')].every(h => h.querySelector('tbody tr td'))"
-    )
-    assert page.evaluate(
-        "[...document.querySelectorAll('[data-figure]')].every(h => h.querySelector('.main-svg'))"
-    )
-    colors = page.evaluate("document.querySelector('[data-figure=figure-4]').layout.font.color")
-    page.evaluate("dispatchEvent(new Event('afterprint'))")
     assert page.locator("details[open]").count() == 0
-    assert (
-        page.evaluate("document.querySelector('[data-figure=figure-4]').layout.font.color")
-        != colors
-    )
+    assert len(drawn_figures(page)) == page.locator("[data-figure]:visible").count()
+    color = "document.querySelector('[data-figure=figure-4]').layout.font.color"
+    light = page.evaluate(color)
+    page.evaluate("dispatchEvent(new Event('afterprint'))")
+    page.locator("[data-figure=figure-4]").scroll_into_view_if_needed()
+    page.wait_for_function(f"{color} !== '{light}'")
     pdf = tmp_path / "report.pdf"
     page.pdf(path=pdf, prefer_css_page_size=True)
-    assert pdf.read_bytes().startswith(b"%PDF")
-    assert pdf.stat().st_size > 100_000
+    pages = len(re.findall(rb"/Type\s*/Page\b", pdf.read_bytes()))
+    assert 5 < pages <= MOST_PAGES
 
 
 def test_keyboard_reaches_the_page(open_report: Open) -> None:

@@ -136,6 +136,27 @@ def test_region_sizes_hold_every_triangle(study):
         assert found["share_of_triangles"].to_numpy() == pytest.approx(share.to_numpy())
 
 
+def test_intervals_of_region_sizes_are_those_of_a_jackknife(study):
+    """A share is a ratio of sums: leave out one triangulation after the other."""
+    _, (_, _, regions, _), tables = study
+    one = {"method": "delaunay", "distribution": "uniform"}
+    rows = tables["region_sizes"].rows(**one).frame.set_index("region_size")
+    of_one = regions[(regions["method"] == "delaunay") & (regions["distribution"] == "uniform")]
+    tasks = of_one.groupby(["n_points", "replicate"])
+    for size in (2, 3):
+        counts = np.array(
+            [task.loc[task["region_size"] == size, "count"].sum() for _, task in tasks]
+        )
+        totals = tasks["count"].sum().to_numpy()
+        left_out = (counts.sum() - counts) / (totals.sum() - totals)
+        r = len(totals)
+        error = np.sqrt((r - 1) / r * ((left_out - left_out.mean()) ** 2).sum())
+        half = stats.t.ppf(0.975, r - 1) * error
+        row = rows.loc[size]
+        assert (row["share_low"] + row["share_high"]) / 2 == pytest.approx(row["share"])
+        assert row["share_high"] - row["share"] == pytest.approx(half, rel=0.05)
+
+
 def test_groups_are_not_mixed(study):
     _, (results, *_), tables = study
     frame = tables["theorem_1"].frame.query("statistic == 'mean'")
