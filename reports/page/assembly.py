@@ -26,7 +26,6 @@ from reports.text.glossary import marked
 from study.analysis.table import UnknownNameError
 
 _REFERENCE = re.compile(r"\[\[([\w-]+)\]\]")
-_NUMBERED = re.compile(r"^(Figure|Table) \d+\.? *")
 
 
 def reference(address: str) -> str:
@@ -48,7 +47,7 @@ def assemble(sections: Iterable[Section]) -> list[Section]:
     UnknownNameError
         If a text refers to an id that the page does not have.
     ValueError
-        If an id is given twice, or a title brings a number of its own.
+        If an id is given twice.
     """
     numbered = _numbered(sections)
     names = _names(numbered)
@@ -60,7 +59,7 @@ def _numbered(sections: Iterable[Section]) -> list[Section]:
 
     def block(given: Block) -> Block:
         if isinstance(given, TableBlock):
-            return replace(given, caption=_plain(given.caption), id=given.address)
+            return replace(given, id=given.address)
         if not isinstance(given, FigureBlock | Drawing):
             return given
         number = next(numbers)
@@ -68,22 +67,16 @@ def _numbered(sections: Iterable[Section]) -> list[Section]:
             replace(
                 table,
                 id=f"{given.id}-data{'' if k == 0 else f'-{k + 1}'}",
-                caption=f"Data of Figure {number}: {_plain(table.caption)}",
+                caption=f"Data of Figure {number}: {table.caption}",
             )
             for k, table in enumerate(given.data)
         )
-        return replace(given, number=number, title=_plain(given.title), data=data)
+        return replace(given, number=number, data=data)
 
     def part(given: Subsection) -> Subsection:
         return replace(given, blocks=tuple(block(one) for one in given.blocks))
 
     return [replace(one, parts=tuple(part(p) for p in one.parts)) for one in sections]
-
-
-def _plain(title: str) -> str:
-    """Leave the number out that a title brings along."""
-    title = _NUMBERED.sub("", title)
-    return re.sub(r"^Data( of Figures? \d+( and \d+)?)?: *", "", title)
 
 
 def _names(sections: list[Section]) -> dict[str, str]:

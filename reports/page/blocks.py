@@ -4,6 +4,7 @@ A text or a figure that depends on the switch is a mapping from a view's key to 
 `ALWAYS` is the key of what every view shows alike.
 """
 
+import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -17,8 +18,26 @@ if TYPE_CHECKING:
     from study.analysis.table import Declaration
 
 ALWAYS = "*"
+#: What a title must not bring along: the page numbers its figures, and the paper's numbers are
+#: told apart from them.
+_NUMBERED = re.compile(r"(Figure|Table) \d|Data( of |:)")
+_SLUG = re.compile(r"figure-[a-z][a-z0-9-]*")
 #: The columns that the page's switches pick rows by.
 SWITCHES = ("method", "distribution")
+
+
+def _check_title(title: str) -> None:
+    if _NUMBERED.match(title):
+        raise ValueError(
+            f"a title is plain words, not {title!r}: the page numbers its figures and says whose "
+            "data a table has; what the paper calls it is given as `paper`"
+        )
+
+
+def _check_figure(address: str, title: str) -> None:
+    if not _SLUG.fullmatch(address):
+        raise ValueError(f"a figure's id is a word like 'figure-models', not {address!r}")
+    _check_title(title)
 
 
 @dataclass(frozen=True)
@@ -98,6 +117,8 @@ class TableBlock:
     ------
     UnknownNameError
         If the table has no such column.
+    ValueError
+        If the caption brings a number of its own.
     """
 
     table: "Declaration"
@@ -114,6 +135,8 @@ class TableBlock:
     def __post_init__(self) -> None:
         asked = (*self.columns, *self.followed, *self.where)
         self.table.check_columns(asked)
+        if not self.id:  # the page, when it is put together, puts the figure before the caption
+            _check_title(self.caption)
 
     @property
     def followed(self) -> tuple[str, ...]:
@@ -150,6 +173,11 @@ class FigureBlock:
         What the paper calls this figure: ``Figure 6``.
     number : int
         Place among the figures of the page; 0 before the page is put together.
+
+    Raises
+    ------
+    ValueError
+        If the id is no such word, or the title brings a number of its own.
     """
 
     id: str
@@ -161,6 +189,9 @@ class FigureBlock:
     paper: str = ""
     number: int = 0
     kind: str = "figure"
+
+    def __post_init__(self) -> None:
+        _check_figure(self.id, self.title)
 
     @property
     def height(self) -> int:
@@ -182,6 +213,9 @@ class Drawing:
     paper: str = ""
     number: int = 0
     kind: str = "drawing"
+
+    def __post_init__(self) -> None:
+        _check_figure(self.id, self.title)
 
 
 Block = Prose | Tiles | Facts | Quotation | TableBlock | FigureBlock | Drawing

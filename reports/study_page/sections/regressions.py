@@ -43,7 +43,8 @@ def section(evidence: Evidence) -> Section:
                     _figure_6(evidence),
                     TableBlock(
                         REGRESSIONS,
-                        "Table 7. The models",
+                        "The models",
+                        paper="Table 7",
                         columns=(
                             "model",
                             "fitting",
@@ -152,12 +153,13 @@ def _figure_6(evidence: Evidence) -> FigureBlock:
         return f"Inside the data the models lie within {show(gap, 'fixed4')} of one another."
 
     return FigureBlock(
-        id="figure-6",
-        title="Figure 6. The models inside the data",
+        id="figure-models",
+        title="The models inside the data",
+        paper="Figure 6",
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
         reading=f"Dots are the groups' means with {LEVEL} intervals, curves least squares fits.",
-        data=(TableBlock(CURVES, "Data of Figures 6 and 7: points of the curves"),),
+        data=(TableBlock(CURVES, "points of the curves"),),
     )
 
 
@@ -205,8 +207,9 @@ def _figure_7(evidence: Evidence) -> FigureBlock:
         )
 
     return FigureBlock(
-        id="figure-7",
-        title="Figure 7. The models far beyond the data",
+        id="figure-projections",
+        title="The models far beyond the data",
+        paper="Figure 7",
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
         reading=f"A curve beyond the dotted bounds is at odds with Theorem 2 if {PREMISE}.",

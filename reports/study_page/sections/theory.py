@@ -147,7 +147,7 @@ def _types(evidence: Evidence) -> FigureBlock:
         alternatives=per_view(evidence.views, say),
         reading=f"Bars are {LEVEL} intervals, mostly narrower than the markers; the dotted line is "
         "the least share of type C that Theorem 2 supposes.",
-        data=(TableBlock(NEIGHBOR_TYPES, "Data: shares of the types by number of points"),),
+        data=(TableBlock(NEIGHBOR_TYPES, "shares of the types by number of points"),),
     )
 
 
@@ -205,7 +205,7 @@ def _moments(evidence: Evidence) -> FigureBlock:
         alternatives=per_view(evidence.views, say),
         reading=f"Bars are {LEVEL} intervals, mostly narrower than the markers. The scales differ; "
         "what matters is the distance between the two lines of a panel.",
-        data=(TableBlock(THEOREM_1, "Data: moments by number of points"),),
+        data=(TableBlock(THEOREM_1, "moments by number of points"),),
     )
 
 
@@ -288,7 +288,7 @@ def _termination(evidence: Evidence) -> FigureBlock:
         alternatives=per_view(evidence.views, say),
         reading=f"Of the paths that reach a size, the share that end there, with {LEVEL} "
         "intervals.",
-        data=(TableBlock(TERMINATION, "Data: termination rates"),),
+        data=(TableBlock(TERMINATION, "termination rates"),),
     )
 
 
@@ -364,5 +364,5 @@ def _law(evidence: Evidence) -> FigureBlock:
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
         reading="The vertical scale is logarithmic: a geometric law is a straight line.",
-        data=(TableBlock(LAW, "Data: LEPP sizes and the law"),),
+        data=(TableBlock(LAW, "LEPP sizes and the law"),),
     )

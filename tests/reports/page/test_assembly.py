@@ -9,6 +9,7 @@ from reports.page.assembly import assemble, reference
 from reports.page.blocks import (
     ALWAYS,
     Block,
+    Drawing,
     FigureBlock,
     Prose,
     Section,
@@ -81,6 +82,23 @@ def test_an_id_given_twice_is_an_error() -> None:
         assemble([section("a", *twice)])
     named = [TableBlock(CURVES, "one"), TableBlock(CURVES, "two", id="table-two")]
     assert len(blocks_of(assemble([section("a", *named)]))) == 2
+
+
+@pytest.mark.parametrize("title", ["Figure 4. The points", "Table 7. The models", "Data: x"])
+def test_a_title_that_brings_a_number_is_an_error(title: str) -> None:
+    with pytest.raises(ValueError, match="a title is plain words, not"):
+        TableBlock(CURVES, title)
+    with pytest.raises(ValueError, match="a title is plain words, not"):
+        FigureBlock("figure-points", title, {}, {}, "", ())
+    with pytest.raises(ValueError, match="a title is plain words, not"):
+        Drawing("figure-points", "", {}, title, {}, "")
+    TableBlock(CURVES, "Tables and figures of the data")
+
+
+@pytest.mark.parametrize("address", ["figure-4", "points", "figure-Points", "figure_points"])
+def test_an_id_of_a_figure_is_a_word(address: str) -> None:
+    with pytest.raises(ValueError, match="a figure's id is a word like"):
+        FigureBlock(address, "The points", {}, {}, "", ())
 
 
 def test_terms_are_marked_at_their_first_use_in_a_section() -> None:

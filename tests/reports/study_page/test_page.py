@@ -104,6 +104,14 @@ def test_figures_are_numbered_in_the_order_of_the_page(report: Path) -> None:
     assert len(numbers) == text.count("<h4") > 15
 
 
+def test_all_figures_and_tables_of_the_paper_are_there(report: Path) -> None:
+    text = report.read_text(encoding="utf-8")
+    assert {f"the paper's Figure {k}." for k in range(1, 8)} <= set(
+        re.findall(r"the paper's Figure \d\.", text)
+    )
+    assert set(re.findall(r'data-paper="(Table \d)"', text)) == {f"Table {k}" for k in range(1, 8)}
+
+
 def test_every_part_figure_and_table_has_a_link_to_itself(report: Path, read: Reader) -> None:
     text = report.read_text(encoding="utf-8")
     anchors = re.findall(r'class="anchor" href="#([\w-]+)"', text)

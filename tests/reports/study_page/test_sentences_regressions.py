@@ -86,7 +86,7 @@ def bic(model, x, y):
 def test_criteria_choose_the_lowest(name, agree):
     x, y = observations(name)
     models = list(BASES)
-    if "saturating" in page(name).finding("figure-7"):
+    if "saturating" in page(name).finding("figure-projections"):
         models.append("saturating")
     chosen = {
         label: min(models, key=lambda m: of(m, x, y))
@@ -128,9 +128,9 @@ def test_models_that_do_not_follow_the_means_are_named():
 def test_gap_between_the_models():
     x, y = observations("growing")
     at = np.unique(np.linspace(1000, 8000, 41).round()) / 1000
-    said = page("growing").finding("figure-6")
+    said = page("growing").finding("figure-models")
     curves = np.array([fit(model, x, y)(at) for model in BASES])
-    if "saturating" in page("growing").finding("figure-7"):
+    if "saturating" in page("growing").finding("figure-projections"):
         curves = np.vstack((curves, fit("saturating", x, y)(at)))
     assert said == (
         f"Inside the data the models lie within {np.ptp(curves, axis=0).max():.4f} of one another."
@@ -150,13 +150,13 @@ def test_predictions_far_beyond_the_data(name):
         steps = [f"{fit(best, x, y)(np.array([10.0**k]))[0]:.4f}" for k in (3, 4, 5, 6)]
         for step in steps:
             assert step in said
-    far = page(name).finding("figure-7")
+    far = page(name).finding("figure-projections")
     word = {"growing": "grows", "falling": "falls"}[name]
     assert f"the logarithmic one {word} without bound" in far
 
 
 def test_limits_are_undecided_where_nothing_changes():
-    assert "the logarithmic one stays undecided" in page("level").finding("figure-7")
+    assert "the logarithmic one stays undecided" in page("level").finding("figure-projections")
     assert level(np.array([1.0])) == 3.05
 
 
@@ -166,7 +166,7 @@ def test_a_run_of_one_size_says_that_models_are_missing():
     one = DESIGN.model_copy(update={"sizes": (2000,)})
     said = page_text(drawn(one))
     assert said.prose("fits") == ""
-    assert said.finding("figure-6") == ""
+    assert said.finding("figure-models") == ""
 
 
 def test_models_that_follow_the_means_are_not_named():
