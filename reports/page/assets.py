@@ -5,6 +5,13 @@ from importlib import resources
 import jinja2
 from markupsafe import Markup
 
+#: The pages' sign: two triangles and the terminal edge between them.
+ICON = (
+    '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 32 32">'
+    '<path d="M4 22 16 4 28 20Z" fill="#74b3f3"/><path d="M4 22 28 20 18 29Z" fill="#ffa35c"/>'
+    '<path d="M4 22 28 20" stroke="#16191d" stroke-width="3" stroke-linecap="round"/></svg>'
+)
+
 
 def environment() -> jinja2.Environment:
     """Make the environment of all templates: what is put in is escaped, what is missing fails."""

@@ -4,6 +4,7 @@ A text or a figure that depends on the switch is a mapping from a view's key to 
 `ALWAYS` is the key of what every view shows alike.
 """
 
+import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -17,8 +18,26 @@ if TYPE_CHECKING:
     from study.analysis.table import Declaration
 
 ALWAYS = "*"
+#: What a title must not bring along: the page numbers its figures, and the paper's numbers are
+#: told apart from them.
+_NUMBERED = re.compile(r"(Figure|Table) \d|Data( of |:)")
+_SLUG = re.compile(r"figure-[a-z][a-z0-9-]*")
 #: The columns that the page's switches pick rows by.
 SWITCHES = ("method", "distribution")
+
+
+def _check_title(title: str) -> None:
+    if _NUMBERED.match(title):
+        raise ValueError(
+            f"a title is plain words, not {title!r}: the page numbers its figures and says whose "
+            "data a table has; what the paper calls it is given as `paper`"
+        )
+
+
+def _check_figure(address: str, title: str) -> None:
+    if not _SLUG.fullmatch(address):
+        raise ValueError(f"a figure's id is a word like 'figure-models', not {address!r}")
+    _check_title(title)
 
 
 @dataclass(frozen=True)
@@ -55,6 +74,22 @@ class Facts:
 
 
 @dataclass(frozen=True)
+class Quotation:
+    """Text to be copied as it stands.
+
+    Attributes
+    ----------
+    label : str
+        What it is.
+    text : str
+    """
+
+    label: str
+    text: str
+    kind: str = "quotation"
+
+
+@dataclass(frozen=True)
 class TableBlock:
     """A table of the data block.
 
@@ -62,8 +97,9 @@ class TableBlock:
     ----------
     table : Declaration
     caption : str
+        Plain words. A table of a figure's data has the figure's number put before them.
     columns : tuple of str
-        The columns to show; all when empty. The download always has all.
+        The columns to show, in this order; all when empty. The full download always has all.
     follows : tuple of str, optional
         The switches that pick the rows shown; those that the table has a column for, by default.
     folded : bool
@@ -72,11 +108,17 @@ class TableBlock:
         Values of further columns that pick the rows shown.
     printed_whole : bool
         Whether a print-out has all rows, however many there are.
+    paper : str
+        What the paper calls this table: ``Table 7``.
+    id : str
+        Stable address of the element; made of the table's name when empty.
 
     Raises
     ------
     UnknownNameError
         If the table has no such column.
+    ValueError
+        If the caption brings a number of its own.
     """
 
     table: "Declaration"
@@ -86,11 +128,15 @@ class TableBlock:
     folded: bool = False
     where: dict[str, object] = field(default_factory=dict)
     printed_whole: bool = False
+    paper: str = ""
+    id: str = ""
     kind: str = "table"
 
     def __post_init__(self) -> None:
         asked = (*self.columns, *self.followed, *self.where)
         self.table.check_columns(asked)
+        if not self.id:  # the page, when it is put together, puts the figure before the caption
+            _check_title(self.caption)
 
     @property
     def followed(self) -> tuple[str, ...]:
@@ -98,6 +144,11 @@ class TableBlock:
         if self.follows is not None:
             return self.follows
         return tuple(name for name in SWITCHES if name in self.table.column_names)
+
+    @property
+    def address(self) -> str:
+        """Id of the element."""
+        return self.id or f"table-{self.table.name.replace('_', '-')}"
 
 
 @dataclass(frozen=True)
@@ -107,9 +158,9 @@ class FigureBlock:
     Attributes
     ----------
     id : str
-        Stable id of the element, ``figure-4``.
+        Stable id of the element, a word of what it shows: ``figure-models``.
     title : str
-        ``Figure 4. …``
+        Plain words; its number is given where the page is put together.
     specs : dict of str to Spec
         The plot for each view; a view without one is said to be missing.
     alternatives : dict of str to str
@@ -118,6 +169,15 @@ class FigureBlock:
         How to read it, in a sentence.
     data : tuple of TableBlock
         The tables of its data, shown under a fold.
+    paper : str
+        What the paper calls this figure: ``Figure 6``.
+    number : int
+        Place among the figures of the page; 0 before the page is put together.
+
+    Raises
+    ------
+    ValueError
+        If the id is no such word, or the title brings a number of its own.
     """
 
     id: str
@@ -126,7 +186,12 @@ class FigureBlock:
     alternatives: dict[str, str]
     reading: str
     data: tuple[TableBlock, ...]
+    paper: str = ""
+    number: int = 0
     kind: str = "figure"
+
+    def __post_init__(self) -> None:
+        _check_figure(self.id, self.title)
 
     @property
     def height(self) -> int:
@@ -145,10 +210,15 @@ class Drawing:
     alternatives: dict[str, str]
     reading: str
     data: tuple[TableBlock, ...] = ()
+    paper: str = ""
+    number: int = 0
     kind: str = "drawing"
 
+    def __post_init__(self) -> None:
+        _check_figure(self.id, self.title)
 
-Block = Prose | Tiles | Facts | TableBlock | FigureBlock | Drawing
+
+Block = Prose | Tiles | Facts | Quotation | TableBlock | FigureBlock | Drawing
 
 
 @dataclass(frozen=True)

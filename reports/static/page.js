@@ -13,35 +13,19 @@ const inputsOf = (name) => [...bar.querySelectorAll("input")].filter((input) => 
 
 const choices = Object.fromEntries(["method", "distribution"].map((name) =>
   [name, inputsOf(name).map((input) => input.value)]));
-const address = () => new URLSearchParams(location.hash.slice(1));
+const address = () => readAddress(location.hash, Object.keys(choices));
 
 /**
  * What the address asks for, where it asks for something that ran.
- * @param {URLSearchParams} parameters
+ * @param {Record<string, string>} asked
  * @returns {Record<string, string>}
  */
-function viewOf(parameters) {
+function viewOf(asked) {
   return Object.fromEntries(Object.entries(choices).map(([name, values]) =>
-    [name, values.find((value) => value === parameters.get(name)) ?? values[0]]));
+    [name, values.find((value) => value === asked[name]) ?? values[0]]));
 }
 
-let view = viewOf(address());
-
-/** @param {string} [section] */
-function hashOf(section) {
-  const parts = Object.entries(view).filter(([name]) => choices[name].length > 1)
-    .map(([name, value]) => `${name}=${value}`);
-  if (section) parts.push(`section=${section}`);
-  return "#" + parts.join("&");
-}
-
-/** @param {string | null} section */
-function scrollToSection(section) {
-  const target = section && document.getElementById(section);
-  if (!target) return;
-  target.scrollIntoView();
-  /** @type {HTMLElement} */ (target.querySelector("h2") ?? target).focus({ preventScroll: true });
-}
+let view = viewOf(address().asked);
 
 function showVariants() {
   const key = `${view.method}/${view.distribution}`;
@@ -105,26 +89,26 @@ function wirePrinter(report, figures) {
   }, () => figures.drawForScreen());
 }
 
-function wireContents() {
-  const links = [.../** @type {NodeListOf<HTMLAnchorElement>} */ (document.querySelectorAll(".contents a"))];
-  for (const link of links) {
-    link.addEventListener("click", (event) => {
-      event.preventDefault();
-      const section = link.hash.slice(1);
-      history.pushState(null, "", hashOf(section));
-      scrollToSection(section);
-    });
-  }
-  const reading = new IntersectionObserver((entries) => {
-    for (const { target, isIntersecting } of entries) {
-      if (!isIntersecting) continue;
-      for (const link of links) {
-        if (link.hash === `#${target.id}`) link.setAttribute("aria-current", "true");
-        else link.removeAttribute("aria-current");
-      }
-    }
-  }, { rootMargin: "-20% 0px -75% 0px" });
-  document.querySelectorAll("main > section").forEach((section) => reading.observe(section));
+/**
+ * Links to places of the page keep the view in the address; those beside headings copy it.
+ * @param {Landing} landing
+ */
+function wireLinks(landing) {
+  document.addEventListener("click", (event) => {
+    const link = /** @type {Element} */ (event.target).closest("a");
+    if (!link?.getAttribute("href")?.startsWith("#") || link.matches(".skip")
+      || event.ctrlKey || event.metaKey || event.shiftKey) return;
+    event.preventDefault();
+    const place = link.hash.slice(1);
+    history.pushState(null, "", writeAddress(view, choices, place));
+    landing.go(place);
+    if (link.matches(".anchor")) copy(link, location.href);
+  });
+}
+
+/** The bar covers the top of the window; how much of it depends on the width. */
+function watchBar() {
+  new ResizeObserver(() => root.style.setProperty("--bar", `${bar.offsetHeight}px`)).observe(bar);
 }
 
 /**
@@ -143,9 +127,15 @@ const idle = () => new Promise((resolve) => "requestIdleCallback" in window
 
 async function start() {
   showVariants();
+  watchBar();
+  const landing = new Landing();
   wireContents();
+  wireLinks(landing);
+  wireCopying();
+  new Glossary();
   const report = new ReportData(await inflate("report-data").json());
   const figures = new Figures(report, () => view);
+  wireTheme(() => figures.update());
   const tables = [...tablesIn(document)];
   const host = /** @type {HTMLElement | null} */ (document.querySelector(".explorer"));
   const explorer = host && new Explorer(host, report);
@@ -160,22 +150,21 @@ async function start() {
   bar.addEventListener("change", () => {
     view = Object.fromEntries(Object.keys(choices).map((name) =>
       [name, inputsOf(name).find((input) => input.checked)?.value ?? ""]));
-    history.pushState(null, "", hashOf());
+    history.pushState(null, "", writeAddress(view, choices));
     apply();
     const said = [...bar.querySelectorAll(".switch:not([hidden]) input:checked + span")];
-    /** @type {HTMLElement} */ (document.getElementById("announcement")).textContent =
-      `Now showing: ${said.map((label) => label.textContent?.trim()).join(", ")}`;
+    announce(`Now showing: ${said.map((label) => label.textContent?.trim()).join(", ")}`);
   });
   addEventListener("popstate", () => {
-    const asked = address();
+    const { asked, place } = address();
     const next = viewOf(asked);
-    // A plain "#theory" names a section and leaves the view as it is.
-    const named = [...asked.keys()].some((name) => name in choices) || location.hash === "";
+    // A plain "#theory" names a place and leaves the view as it is.
+    const named = Object.keys(asked).length > 0 || location.hash === "";
     if (named && JSON.stringify(next) !== JSON.stringify(view)) {
       view = next;
       apply();
     }
-    scrollToSection(asked.get("section"));
+    landing.go(place);
   });
   document.addEventListener("toggle", (event) => {
     const fold = /** @type {HTMLDetailsElement} */ (event.target);
@@ -184,10 +173,9 @@ async function start() {
 
   explorer?.build(view);
   await drawInSlices(report, tables.filter(isOpen));
-  scrollToSection(address().get("section"));
+  landing.go(address().place);
   settle("tables");
 
-  wireTheme(() => figures.update());
   wirePrinter(report, figures);
   figures.watch();
   new FigureDownloads(figures, report, () => view);

@@ -6,13 +6,17 @@ from pathlib import Path
 
 from lepp import METHODS, InputError
 from reports.page import plotly
-from reports.page.assets import environment, static
-from reports.page.blocks import FigureBlock, Section
+from reports.page.assembly import assemble
+from reports.page.assets import ICON, environment, static
+from reports.page.blocks import FigureBlock, Section, TableBlock
 from reports.page.data import encode, figure_data, table_data
 from reports.page.evidence import Evidence
+from reports.page.static_table import StaticTable, static_table
 from reports.page.views import distribution_name
 from reports.study_page import sections
 from reports.study_page.gather import gather
+from reports.text.glossary import TERMS
+from reports.text.words import TITLE
 from study.analysis.table import DISTRIBUTION, METHOD, Column, Tables
 from study.results.files import write_text
 
@@ -47,20 +51,31 @@ def write_report(directory: Path) -> Path:
 
 def render(evidence: Evidence) -> str:
     """Make the page's HTML."""
-    parts = sections.all_sections(evidence)
+    parts = assemble(sections.all_sections(evidence))
+    first = evidence.views[0]
+
+    def still(block: TableBlock) -> StaticTable:
+        return static_table(block, evidence, first)
+
     return (
         environment()
         .get_template("page.html.j2")
         .render(
-            title=sections.TITLE,
+            title=TITLE,
             description=sections.description(evidence),
+            lede=sections.LEDE,
+            source=sections.source(evidence),
+            icon=ICON,
             alarms=sections.alarms(evidence),
             colophon=sections.COLOPHON,
             sections=parts,
             views=evidence.views,
-            first=evidence.views[0].key,
+            first=first.key,
+            shown_first=f"{first.distribution_word} points and the {first.method_word} method",
             switches=_switches(evidence),
             static=static,
+            still=still,
+            terms=TERMS,
             data=encode(page_data(evidence, parts)),
             plotly=plotly.script(),
         )

@@ -5,6 +5,8 @@ from study.paper.judging import AGREES, CLOSE, DIFFERS, IMPLAUSIBLE, PLAUSIBLE
 from study.statistics.thresholds import CONFIDENCE
 from study.statistics.verdicts import NO, YES
 
+#: Title of the study's page.
+TITLE = "How far does one refinement spread?"
 #: The level of intervals, with a space at which no line ends.
 LEVEL = f"{100 * CONFIDENCE:g}\u00a0%"
 #: Theorem 2's premise.

@@ -1,5 +1,7 @@
 """The sections of the page, in the order in which a reader asks."""
 
+from markupsafe import Markup
+
 from lepp import METHODS
 from reports.page.blocks import Section
 from reports.page.evidence import Evidence
@@ -10,6 +12,7 @@ from reports.study_page.sections import (
     distributions,
     edge,
     methods,
+    path,
     provenance,
     regions,
     regressions,
@@ -17,13 +20,19 @@ from reports.study_page.sections import (
     summary,
     theory,
 )
+from reports.text.citation import paper_in_words, versions
 from study.analysis.analyse import MISSING
 from study.analysis.group_summaries import OVERVIEW, TRIANGULATIONS_MISSING
 from study.analysis.path_lengths import LAW_MISSING
 from study.analysis.regressions import SATURATION_MISSING
+from study.paper.published import CITATION
 from study.text.numbers import count, large, listed
 
-TITLE = "How far does one refinement spread?"
+LEDE = (
+    "When a triangle of a mesh is bisected, its neighbours have to be bisected with it, and theirs "
+    "in turn. A published study has a theory and an experiment of how far that goes. This page "
+    "repeats the experiment, and holds the theory against it."
+)
 COLOPHON = (
     "Made by lepp-study. Plots by Plotly.js (MIT licence), which is part of this file: the page "
     "needs no network."
@@ -34,7 +43,7 @@ _MOST_ALARMS = 6
 
 def all_sections(evidence: Evidence) -> list[Section]:
     """Make every section that the run gives reason for."""
-    modules = [summary, agreement, theory, statistics, edge, regressions]
+    modules = [path, summary, agreement, theory, statistics, edge, regressions]
     if len(evidence.design.distributions) > 1:
         modules.append(distributions)
     if len(evidence.design.methods) > 1:
@@ -47,7 +56,7 @@ def description(evidence: Evidence) -> str:
     """Say in a sentence what was studied."""
     overview = evidence.rows(OVERVIEW)
     done, asked = int(overview["triangulations"].sum()), evidence.design.n_triangulations
-    made = (
+    drawn = (
         count(done, "random triangulation")
         if done == asked
         else f"{done:,} of {asked:,} random triangulations"
@@ -55,10 +64,20 @@ def description(evidence: Evidence) -> str:
     sizes = evidence.design.sizes
     of = f"{sizes[0]:,} to {sizes[-1]:,}" if len(sizes) > 1 else f"{sizes[0]:,}"
     return (
-        f"{made} of {of} points, {large(overview['triangles'].sum())} triangles in all: the "
+        f"{drawn} of {of} points, {large(overview['triangles'].sum())} triangles in all: the "
         "longest-edge propagation path (LEPP) of every one of them, measured, and held against the "
         "published theory and statistics."
     )
+
+
+def source(evidence: Evidence) -> Markup:
+    """Name the paper, with a link where its DOI is confirmed, and this run's version and seed."""
+    paper: str | Markup = paper_in_words(CITATION)
+    if CITATION.doi_confirmed:
+        paper = Markup('<a href="https://doi.org/{}">{}</a>').format(CITATION.doi, paper)
+    return Markup(
+        "The study: {}. This run: lepp-study {}, seed {} (<a href='#cite'>how to cite</a>)."
+    ).format(paper, listed(versions(evidence.manifest)), evidence.design.seed)
 
 
 def alarms(evidence: Evidence) -> list[str]:

@@ -119,7 +119,7 @@ def _table_4(evidence: Evidence) -> Subsection:
         (
             Prose(per_view(evidence.views, lambda view: _overall(evidence, view))),
             _means(evidence),
-            TableBlock(TABLE_4, "Table 4. Ours, and the paper's where it prints one"),
+            TableBlock(TABLE_4, "Ours, and the paper's where it prints one", paper="Table 4"),
         ),
     )
 
@@ -384,7 +384,7 @@ def _means(evidence: Evidence) -> FigureBlock:
         alternatives=per_view(evidence.views, say),
         reading="Where the paper prints a mean, the lower panel has the difference; dotted lines "
         f"are at {AGREES_UP_TO:g} standard errors.",
-        data=(TableBlock(TABLE_4, "Data: means by number of points"),),
+        data=(TableBlock(TABLE_4, "means by number of points"),),
     )
 
 

@@ -23,7 +23,8 @@ def assumptions(evidence: Evidence) -> Subsection:
             Prose(per_view(evidence.views, lambda view: _assumptions(evidence, view))),
             TableBlock(
                 LEVENE,
-                "Table 2. Levene's test of equal variances",
+                "Levene's test of equal variances",
+                paper="Table 2",
                 columns=(
                     "center",
                     "df_group",
@@ -34,7 +35,7 @@ def assumptions(evidence: Evidence) -> Subsection:
                 ),
             ),
             _qq(evidence),
-            TableBlock(SHAPIRO, "Table 3. Shapiro-Wilk test of each group", folded=True),
+            TableBlock(SHAPIRO, "Shapiro-Wilk test of each group", paper="Table 3", folded=True),
         ),
     )
 
@@ -129,5 +130,5 @@ def _qq(evidence: Evidence) -> FigureBlock:
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
         reading="Normal values would lie on the dashed line.",
-        data=(TableBlock(QQ, "Data of the QQ plot"),),
+        data=(TableBlock(QQ, "the quantiles"),),
     )

@@ -58,12 +58,13 @@ def _figure_3(evidence: Evidence) -> FigureBlock:
     each = len(rows) // len(names)
     words = listed([_shape(name, evidence.design.correlation) for name in names])
     return FigureBlock(
-        id="figure-3",
-        title="Figure 3. The points",
+        id="figure-points",
+        title="The points",
+        paper="Figure 3",
         specs={ALWAYS: figure},
         alternatives={ALWAYS: f"{count(each, 'point')} of each distribution: {words}."},
         reading="The first points of the first point set of each distribution, as drawn.",
-        data=(TableBlock(SAMPLED_POINTS, "Data of Figure 3: the points drawn"),),
+        data=(TableBlock(SAMPLED_POINTS, "the points drawn"),),
     )
 
 
@@ -135,7 +136,7 @@ def _distributions(evidence: Evidence) -> FigureBlock:
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
         reading=f"Means of the groups with {LEVEL} intervals.",
-        data=(TableBlock(GROUPS, "Data: the groups of all distributions", follows=(METHOD.name,)),),
+        data=(TableBlock(GROUPS, "the groups of all distributions", follows=(METHOD.name,)),),
     )
 
 
@@ -168,12 +169,13 @@ def _figure_4(evidence: Evidence) -> FigureBlock:
         )
 
     return FigureBlock(
-        id="figure-4",
-        title="Figure 4. Mean LEPP size of every triangulation",
+        id="figure-triangulations",
+        title="Mean LEPP size of every triangulation",
+        paper="Figure 4",
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, lambda view: _range(evidence, view)),
         reading="A dot is one triangulation; it is drawn at its number of points.",
-        data=(TableBlock(TRIANGULATIONS, "Data of Figures 4 and 5: every triangulation"),),
+        data=(TableBlock(TRIANGULATIONS, "every triangulation"),),
     )
 
 
@@ -197,15 +199,16 @@ def _figure_5(evidence: Evidence) -> FigureBlock:
         )
 
     return FigureBlock(
-        id="figure-5",
-        title="Figure 5. Mean LEPP size by group",
+        id="figure-groups",
+        title="Mean LEPP size by group",
+        paper="Figure 5",
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, lambda view: _spread(evidence, view)),
         reading="Boxes span the quartiles, whiskers reach to 1.5 times their distance.",
         data=(
             TableBlock(
                 GROUPS,
-                "Data of Figure 5: the groups",
+                "the groups",
                 columns=("n_points", "triangulations", "lowest", "q1", "median", "q3", "highest"),
             ),
         ),

@@ -196,7 +196,7 @@ def _growth(evidence: Evidence) -> FigureBlock:
         data=(
             TableBlock(
                 METHODS_COMPARED,
-                "Data: paired differences at every number of points",
+                "paired differences at every number of points",
                 follows=(DISTRIBUTION.name,),
             ),
         ),
@@ -283,7 +283,7 @@ def _rates(evidence: Evidence) -> FigureBlock:
         data=(
             TableBlock(
                 TERMINATION,
-                "Data: termination rates of all triangulations",
+                "termination rates of all triangulations",
                 follows=(DISTRIBUTION.name,),
             ),
         ),
@@ -335,7 +335,5 @@ def _sizes(evidence: Evidence) -> FigureBlock:
         specs=_by_distribution(evidence, draw),
         alternatives=_by_distribution(evidence, say),
         reading="The vertical scale is logarithmic.",
-        data=(
-            TableBlock(LAW, "Data: LEPP sizes of all triangulations", follows=(DISTRIBUTION.name,)),
-        ),
+        data=(TableBlock(LAW, "LEPP sizes of all triangulations", follows=(DISTRIBUTION.name,)),),
     )

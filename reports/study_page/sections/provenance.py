@@ -4,23 +4,27 @@ import math
 from itertools import pairwise
 
 from lepp import METHODS, NEARLY_EQUAL
-from reports.page.blocks import Facts, Section, Subsection, TableBlock, common
+from reports.page.blocks import Facts, Quotation, Section, Subsection, TableBlock, common
 from reports.page.evidence import Evidence
 from reports.page.views import distribution_word
 from reports.study_page.tables import FAILURES
+from reports.text.citation import paper_entry, report_entry
+from reports.text.words import TITLE
 from study.analysis.analyse import MISSING
 from study.analysis.group_summaries import OVERVIEW
 from study.analysis.table import Rows
 from study.design.design import Design
+from study.paper.published import CITATION
 from study.text.numbers import count, large, listed, ten_to
 
 
 def section(evidence: Evidence) -> Section:
-    """Design, completeness, environment."""
+    """Design, completeness, environment, citation."""
     parts = [
         Subsection("design", "Design", (_design(evidence),)),
         Subsection("completeness", "Completeness", _completeness(evidence)),
         Subsection("environment", "Environment", _environments(evidence)),
+        Subsection("cite", "How to cite", _citations(evidence)),
     ]
     return Section("made", "How it was made", "Can I make it again?", tuple(parts))
 
@@ -117,3 +121,13 @@ def _environments(evidence: Evidence) -> tuple:
             0, common("The run was taken up again in another environment; all are listed.")
         )
     return tuple(blocks)
+
+
+def _citations(evidence: Evidence) -> tuple:
+    return (
+        common(
+            "The report is made by software, from a design and a seed; cite both, and the paper."
+        ),
+        Quotation("This report, BibTeX", report_entry(TITLE, evidence.design, evidence.manifest)),
+        Quotation("The paper, BibTeX", paper_entry(CITATION)),
+    )

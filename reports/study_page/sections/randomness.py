@@ -22,7 +22,8 @@ def randomness(evidence: Evidence) -> Subsection:
             _uniformity(evidence),
             TableBlock(
                 RANDOMNESS,
-                "Table 1. Tests of randomness and of fit",
+                "Tests of randomness and of fit",
+                paper="Table 1",
                 columns=(
                     "distribution",
                     "test",
@@ -99,7 +100,7 @@ def _uniformity(evidence: Evidence) -> FigureBlock:
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
         reading="If the points are random, the bars are level with the dashed line, give or take.",
-        data=(TableBlock(UNIFORMITY, f"Data: p-values counted in steps of {1 / BINS:g}"),),
+        data=(TableBlock(UNIFORMITY, f"p-values counted in steps of {1 / BINS:g}"),),
     )
 
 

@@ -107,5 +107,5 @@ def _sizes(evidence: Evidence) -> FigureBlock:
         alternatives=per_view(evidence.views, say),
         reading=f"Bars are {LEVEL} intervals, mostly narrower than the markers. The vertical scale "
         "is logarithmic.",
-        data=(TableBlock(REGION_SIZES, "Data: sizes of the regions"),),
+        data=(TableBlock(REGION_SIZES, "sizes of the regions"),),
     )

@@ -57,8 +57,9 @@ def _predicted(evidence: Evidence) -> Subsection:
             Prose(per_view(evidence.views, lambda view: _scores(evidence, view))),
             _figure(
                 evidence,
-                "figure-7",
-                "Figure 7. The models beyond the sizes that they are fitted to",
+                "figure-projections",
+                "The models beyond the sizes that they are fitted to",
+                "Figure 7",
                 PREDICTION,
             ),
             TableBlock(
@@ -131,10 +132,13 @@ def _table_7(evidence: Evidence) -> Subsection:
         "The paper's regressions",
         (
             Prose(per_view(evidence.views, lambda view: _of_paper(evidence, view))),
-            _figure(evidence, "figure-6", "Figure 6. The models fitted to all sizes", ALL_SIZES),
+            _figure(
+                evidence, "figure-models", "The models fitted to all sizes", "Figure 6", ALL_SIZES
+            ),
             TableBlock(
                 REGRESSIONS,
-                "Table 7. The paper's four models, by least squares as in the paper",
+                "The paper's four models, by least squares as in the paper",
+                paper="Table 7",
                 columns=("model", "formula", "adj_r2", "log10_p", "lack_of_fit_p"),
                 where={"fitting": LEAST_SQUARES},
             ),
@@ -363,7 +367,7 @@ def _of_paper(evidence: Evidence, view: View) -> list[str] | None:
     ]
 
 
-def _figure(evidence: Evidence, name: str, title: str, which: str) -> FigureBlock:
+def _figure(evidence: Evidence, name: str, title: str, paper: str, which: str) -> FigureBlock:
     def draw(view: View) -> Spec | None:
         panels = [_panel(evidence, view, part, which) for part in (WHOLE, INTERIOR)]
         drawn = [panel for panel in panels if panel]
@@ -390,10 +394,11 @@ def _figure(evidence: Evidence, name: str, title: str, which: str) -> FigureBloc
     return FigureBlock(
         id=name,
         title=title,
+        paper=paper,
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
         reading=f"Dots are the means with {LEVEL} intervals; {fitted}.",
-        data=(TableBlock(CURVES, f"Data: points of the curves ({which})", where={"view": which}),),
+        data=(TableBlock(CURVES, f"points of the curves ({which})", where={"view": which}),),
     )
 
 

@@ -35,7 +35,8 @@ def section(evidence: Evidence) -> Section:
                     Prose(per_view(evidence.views, lambda view: _anova(evidence, view))),
                     TableBlock(
                         ANOVA,
-                        "Table 5. Analysis of variance, three ways",
+                        "Analysis of variance, three ways",
+                        paper="Table 5",
                         columns=(
                             "test",
                             "df_group",
@@ -58,7 +59,8 @@ def section(evidence: Evidence) -> Section:
                     Prose(per_view(evidence.views, lambda view: _bounds(evidence, view))),
                     TableBlock(
                         BOUNDS,
-                        f"Table 6. t tests of every group against {LOWER_BOUND} and {UPPER_BOUND}",
+                        f"t tests of every group against {LOWER_BOUND} and {UPPER_BOUND}",
+                        paper="Table 6",
                         columns=(
                             "n_points",
                             "bound",
@@ -160,7 +162,7 @@ def _pairs(evidence: Evidence) -> FigureBlock:
         alternatives=per_view(evidence.views, say),
         reading="A square is the second group's mean less the first's; a dot marks pairs that "
         "cannot be told apart.",
-        data=(TableBlock(PAIRS, "Data: all pairs"),),
+        data=(TableBlock(PAIRS, "all pairs"),),
     )
 
 

@@ -1,10 +1,9 @@
-"""What was found: the key figures, what a path is (Figure 1), and the paper's statements."""
+"""What was found: in sentences, in key figures, and by the paper's statements."""
 
 import pandas as pd
 
 from lepp.theory import LEAST_P_TEXT
 from reports.page.blocks import (
-    Drawing,
     Prose,
     Section,
     Subsection,
@@ -15,7 +14,7 @@ from reports.page.blocks import (
 )
 from reports.page.evidence import Evidence
 from reports.page.views import View
-from reports.study_page.explorer import EXPLORER_POINTS, EXPLORER_TRIANGLES, N_POINTS
+from reports.study_page.sections.plain_insertion import paper_triangulation
 from reports.study_page.sections.regressions import trend_sentence
 from reports.study_page.sections.theory import one_chance
 from reports.study_page.tables import TABLE_4
@@ -33,7 +32,7 @@ from study.text.numbers import count, large, listed, show
 
 
 def section(evidence: Evidence) -> Section:
-    """Tiles, sentences, the explorer, the statements."""
+    """Sentences, tiles, the statements."""
     return Section(
         "found",
         "What was found",
@@ -43,11 +42,10 @@ def section(evidence: Evidence) -> Section:
                 "key-figures",
                 "",
                 (
-                    Tiles(per_view(evidence.views, lambda view: _tiles(evidence, view))),
                     Prose(per_view(evidence.views, lambda view: _sentences(evidence, view))),
+                    Tiles(per_view(evidence.views, lambda view: _tiles(evidence, view))),
                 ),
             ),
-            Subsection("path", "What a path is", (_figure_1(evidence),)),
             Subsection(
                 "statements",
                 "What the paper states, and whether it holds",
@@ -56,7 +54,7 @@ def section(evidence: Evidence) -> Section:
                     TableBlock(
                         STATEMENTS,
                         "The paper's statements, tested on this run",
-                        columns=("source", "statement", "holds", "evidence"),
+                        columns=("source", "holds", "statement", "evidence"),
                     ),
                 ),
             ),
@@ -135,7 +133,12 @@ def _off(relative: float) -> str:
 
 
 def _sentences(evidence: Evidence, view: View) -> list[str] | None:
-    parts = (_spread(evidence, view), trend_sentence(evidence, view), _theory(evidence, view))
+    parts = (
+        _spread(evidence, view),
+        paper_triangulation(evidence),
+        trend_sentence(evidence, view),
+        _theory(evidence, view),
+    )
     sentences = [part for part in parts if part]
     return sentences or None
 
@@ -187,35 +190,6 @@ def _refuted(bounds: Rows) -> str:
     where = f"at {failed} of {count(len(premise), 'number')} of points, "
     least = show(bounds["lowest_rate"].min(), "fixed4")
     return f" ({where if failed < len(premise) else ''}the least is {least})"
-
-
-def _figure_1(evidence: Evidence) -> Drawing:
-    def say(view: View) -> str:
-        triangles = evidence.rows(EXPLORER_TRIANGLES, view)
-        sizes = triangles["lepp_size"]
-        edges = triangles.frame[["terminal_a", "terminal_b"]].drop_duplicates()
-        return (
-            f"{len(triangles)} triangles of {N_POINTS} {view.distribution_word} points by the "
-            f"{view.method_word} method. Their paths are {show(sizes.mean(), 'fixed2')} triangles "
-            f"long on average and {sizes.max()} at most, and end at "
-            f"{count(len(edges), 'terminal edge')}."
-        )
-
-    return Drawing(
-        id="figure-1",
-        template="explorer.html.j2",
-        context={},
-        title="Figure 1. The longest-edge propagation path of any triangle",
-        alternatives=per_view(evidence.views, say),
-        reading="From a triangle, the path crosses its longest edge into the neighbour, then the "
-        "neighbour's longest edge, and so on, until an edge is the longest of both triangles "
-        "beside it, or lies on the boundary: the terminal edge. To refine the first triangle well, "
-        "all of its path has to be refined.",
-        data=(
-            TableBlock(EXPLORER_TRIANGLES, "Data of Figure 1: the triangles and their paths"),
-            TableBlock(EXPLORER_POINTS, "Data of Figure 1: the points"),
-        ),
-    )
 
 
 def _statements(evidence: Evidence, view: View) -> list[str] | None:

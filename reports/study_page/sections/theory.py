@@ -196,7 +196,7 @@ def _types(evidence: Evidence) -> FigureBlock:
         alternatives=per_view(evidence.views, say),
         reading=f"Bars are {LEVEL} intervals, mostly narrower than the markers; the dotted line is "
         "the least share of type C that Theorem 2 supposes.",
-        data=(TableBlock(NEIGHBOR_TYPES, "Data: shares of the types by number of points"),),
+        data=(TableBlock(NEIGHBOR_TYPES, "shares of the types by number of points"),),
     )
 
 
@@ -279,7 +279,7 @@ def _moments(evidence: Evidence) -> FigureBlock:
         reading=f"Bars are {LEVEL} intervals, mostly narrower than the markers. The scales differ; "
         "what matters is the distance between the lines of a panel. With r of all steps the mean "
         "fits by construction.",
-        data=(TableBlock(THEOREM_1, "Data: moments by number of points"),),
+        data=(TableBlock(THEOREM_1, "moments by number of points"),),
     )
 
 
@@ -375,8 +375,8 @@ def _continuation(evidence: Evidence) -> FigureBlock:
         "share most of their triangles: the longest one seen scatters more widely around what a "
         "law expects than independent paths would.",
         data=(
-            TableBlock(CONTINUATION, "Data: chances to go on"),
-            TableBlock(TERMINATION, "Data: the same from the other side, at all sizes together"),
+            TableBlock(CONTINUATION, "chances to go on"),
+            TableBlock(TERMINATION, "the same from the other side, at all sizes together"),
         ),
     )
 
@@ -532,5 +532,5 @@ def _law(evidence: Evidence) -> FigureBlock:
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
         reading="The vertical scale is logarithmic: a geometric law is a straight line.",
-        data=(TableBlock(LAW, "Data: LEPP sizes and the law"),),
+        data=(TableBlock(LAW, "LEPP sizes and the law"),),
     )

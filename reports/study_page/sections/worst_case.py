@@ -48,14 +48,15 @@ def _figure_2(evidence: Evidence) -> Drawing:
     largest = rows.last
     equal = bool(all_of(rows["equal"]) == YES)
     return Drawing(
-        id="figure-2",
+        id="figure-worst-case",
         template="strip.html.j2",
         context={
             "triangles": triangles,
             "width": f"{_WIDTH:g}",
             "height": f"{np.ptp(y) * scale + 2 * _MARGIN:.2f}",
         },
-        title="Figure 2. The worst case",
+        title="The worst case",
+        paper="Figure 2",
         alternatives={
             ALWAYS: (
                 f"A strip of {_TRIANGLES} triangles; the number in each is its LEPP size, from "
@@ -69,5 +70,5 @@ def _figure_2(evidence: Evidence) -> Drawing:
             )
         },
         reading="Every edge across the strip is longer than the one to its left.",
-        data=(TableBlock(WORST_CASE, "Data: strips of growing length", follows=()),),
+        data=(TableBlock(WORST_CASE, "strips of growing length", follows=()),),
     )

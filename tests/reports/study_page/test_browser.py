@@ -115,15 +115,17 @@ def test_switch_acts_on_the_whole_page_and_on_the_address(open_report: Open) -> 
     page = open_report()
     draw_all(page)
     before = (page.locator(".finding:visible").all_inner_texts(), shown_rows(page, "table_4"))
-    page.locator("[data-figure=figure-4]").scroll_into_view_if_needed()
-    drawn = page.evaluate("document.querySelector('[data-figure=figure-4]').data[0].y[0]")
+    page.locator("[data-figure=figure-triangulations]").scroll_into_view_if_needed()
+    drawn = page.evaluate(
+        "document.querySelector('[data-figure=figure-triangulations]').data[0].y[0]"
+    )
     page.get_by_role("radio", name="Bivariate normal").check()
     assert f"distribution={SECOND}" in page.url
     after = (page.locator(".finding:visible").all_inner_texts(), shown_rows(page, "table_4"))
     assert before[0] != after[0]
     assert before[1] != after[1]
     page.wait_for_function(
-        f"document.querySelector('[data-figure=figure-4]').data[0].y[0] !== {drawn}"
+        f"document.querySelector('[data-figure=figure-triangulations]').data[0].y[0] !== {drawn}"
     )
     assert "Bivariate normal" in page.locator("#announcement").inner_text()
     page.go_back()
@@ -225,14 +227,19 @@ def test_csv_downloads_are_the_files_on_disk(open_report: Open, report: Path) ->
 
 @pytest.mark.parametrize(
     ("scheme", "figure"),
-    [("light", "figure-1"), ("dark", "figure-2"), ("light", "figure-4"), ("dark", "figure-pairs")],
+    [
+        ("light", "figure-path"),
+        ("dark", "figure-worst-case"),
+        ("light", "figure-triangulations"),
+        ("dark", "figure-pairs"),
+    ],
 )
 def test_a_figure_can_be_saved_in_the_theme_of_the_page(
     open_report: Open, scheme: str, figure: str
 ) -> None:
     page = open_report(color_scheme=scheme, viewport={"width": 390, "height": 800})
     place = page.locator(f"#{figure}")
-    view = "" if figure == "figure-2" else f"-uniform-{DESIGN.methods[0]}"
+    view = "" if figure == "figure-worst-case" else f"-uniform-{DESIGN.methods[0]}"
     title = " ".join(place.locator("h4").inner_text().split())
     paper = page.evaluate("getComputedStyle(document.body).backgroundColor")
 
@@ -330,11 +337,11 @@ def test_numbers_and_formulas_have_one_notation(open_report: Open) -> None:
 
 def test_dark_theme_follows_the_system_and_the_button(open_report: Open) -> None:
     colors = """() => [getComputedStyle(document.body).backgroundColor,
-        document.querySelector('[data-figure=figure-4]').layout.font.color]"""
+        document.querySelector('[data-figure=figure-triangulations]').layout.font.color]"""
 
     def paint(page: Page) -> list[str]:
         draw_all(page)
-        page.locator("[data-figure=figure-4]").scroll_into_view_if_needed()
+        page.locator("[data-figure=figure-triangulations]").scroll_into_view_if_needed()
         page.wait_for_timeout(300)  # those near are drawn one by one
         return page.evaluate(colors)
 
@@ -354,12 +361,12 @@ def test_a_figure_that_was_far_away_follows_the_theme_when_it_comes_near(
 ) -> None:
     page = open_report(color_scheme="light")
     draw_all(page)  # and go back to the top
-    color = "document.querySelector('[data-figure=figure-4]').layout.font.color"
+    color = "document.querySelector('[data-figure=figure-triangulations]').layout.font.color"
     before = page.evaluate(color)
     page.get_by_role("button", name="Dark").click()
     page.wait_for_timeout(300)
     assert page.evaluate(color) == before
-    page.locator("[data-figure=figure-4]").scroll_into_view_if_needed()
+    page.locator("[data-figure=figure-triangulations]").scroll_into_view_if_needed()
     page.wait_for_function(f"{color} !== '{before}'")
 
 
@@ -369,10 +376,10 @@ def test_a_print_out_has_every_figure_in_light(open_report: Open, tmp_path: Path
     page.evaluate("dispatchEvent(new Event('beforeprint'))")
     assert page.locator("details[open]").count() == 0
     assert len(drawn_figures(page)) == page.locator("[data-figure]:visible").count()
-    color = "document.querySelector('[data-figure=figure-4]').layout.font.color"
+    color = "document.querySelector('[data-figure=figure-triangulations]').layout.font.color"
     light = page.evaluate(color)
     page.evaluate("dispatchEvent(new Event('afterprint'))")
-    page.locator("[data-figure=figure-4]").scroll_into_view_if_needed()
+    page.locator("[data-figure=figure-triangulations]").scroll_into_view_if_needed()
     page.wait_for_function(f"{color} !== '{light}'")
     pdf = tmp_path / "report.pdf"
     page.pdf(path=pdf, prefer_css_page_size=True)

@@ -2,6 +2,7 @@ import csv
 import io
 import json
 import re
+from html import unescape
 from html.parser import HTMLParser
 from itertools import pairwise
 from pathlib import Path
@@ -18,6 +19,7 @@ from reports.study_page import sections
 from reports.study_page.gather import gather
 from reports.study_page.page import write_report
 from study.analysis.table import ColumnReference
+from study.paper.statements import STATEMENTS
 from study.text.numbers import show
 
 MOST_BYTES = 3_000_000
@@ -91,13 +93,102 @@ def test_sections_come_in_the_order_of_the_questions(parts: list[Section]) -> No
     compared = ["distributions"] if len(DESIGN.distributions) > 1 else []
     compared += ["methods"] if len(DESIGN.methods) > 1 else []
     assert [section.id for section in parts] == [
-        "found", "agreement", "theory", "statistics", "edge", "regressions", *compared, "regions",
+        "path", "found", "agreement", "theory", "statistics", "edge", "regressions", *compared,
+        "regions",
         "data", "made",
     ]  # fmt: skip
 
 
-def test_all_seven_figures_are_there(read: Reader) -> None:
-    assert {f"figure-{k}" for k in range(1, 8)} <= set(read.ids)
+def test_figures_are_numbered_in_the_order_of_the_page(report: Path) -> None:
+    text = report.read_text(encoding="utf-8")
+    numbers = re.findall(r"<h4[^>]*>Figure (\d+)\. (?!Figure|Table)\w", text)
+    assert [int(number) for number in numbers] == list(range(1, len(numbers) + 1))
+    assert len(numbers) == text.count("<h4") > 15
+
+
+def test_all_figures_and_tables_of_the_paper_are_there(report: Path) -> None:
+    text = report.read_text(encoding="utf-8")
+    assert {f"the paper's Figure {k}." for k in range(1, 8)} <= set(
+        re.findall(r"the paper's Figure \d\.", text)
+    )
+    assert set(re.findall(r'data-paper="(Table \d)"', text)) == {f"Table {k}" for k in range(1, 8)}
+
+
+def test_every_part_figure_and_table_has_a_link_to_itself(report: Path, read: Reader) -> None:
+    text = report.read_text(encoding="utf-8")
+    anchors = re.findall(r'class="anchor" href="#([\w-]+)"', text)
+    assert len(anchors) == len(set(anchors)) == len(re.findall("<h[234]", text))
+    tables = re.findall(r'data-address="([\w-]+)"', text)
+    assert len(tables) == len(set(tables)) == text.count("data-table=")
+    assert {*anchors, *tables} <= set(read.ids)
+
+
+def test_every_link_inside_the_page_has_a_target(read: Reader) -> None:
+    inside = {address[1:] for address in read.addresses if address.startswith("#")}
+    assert len(inside) > 40
+    assert inside <= set(read.ids)
+
+
+def test_contents_list_every_heading(report: Path, parts: list[Section]) -> None:
+    text = report.read_text(encoding="utf-8")
+    contents = text[text.index('<nav class="contents"') : text.index("</nav>")]
+    listed = re.findall(r'href="#([\w-]+)"', contents)
+    wanted = []
+    for section in parts:
+        wanted += [section.id, *(part.id for part in section.parts if part.title)]
+    assert listed == wanted
+
+
+def test_a_path_is_explained_before_the_first_number(report: Path) -> None:
+    text = report.read_text(encoding="utf-8")
+    head = text[text.index("<header class=") : text.index("<form")]
+    assert "Study on the Average Size" in head
+    assert "María-Cecilia Rivara" in head
+    assert f"seed {DESIGN.seed}" in head
+    order = [text.index(what) for what in ('id="figure-path"', 'id="found"', 'class="tiles"')]
+    assert order == sorted(order)
+    before = text[text.index('id="path"') : text.index('id="figure-path"')]
+    before = unescape(re.sub("<[^>]*>", "", before))
+    assert "terminal edge" in before
+    assert "One path is the first step of a refinement" in before
+    assert re.search(r"\d", before) is None
+
+
+def test_link_previews_have_a_title_and_a_description(report: Path) -> None:
+    text = report.read_text(encoding="utf-8")
+    properties = dict(re.findall(r'<meta property="og:(\w+)" content="([^"]+)">', text))
+    assert properties["type"] == "article"
+    assert properties["title"] == re.search("<title>(.*)</title>", text)[1]  # type: ignore[index]
+    assert re.search(r"\d", properties["description"])
+    assert "image/svg+xml,%3Csvg" in text
+
+
+def test_short_tables_stand_in_the_markup(report: Path, evidence: Evidence) -> None:
+    text = report.read_text(encoding="utf-8")
+    start = text.index('data-table="statements"')
+    markup = text[start : text.index("</table>", start)]
+    first = evidence.views[0]
+    rows = evidence.rows(STATEMENTS, first)
+    assert markup.count("<tr>") == len(rows) + 1
+    for holds in rows["holds"]:
+        assert f">{holds}</span>" in markup
+    assert re.findall(r'<th scope="col"[^>]*>([^<]*)<', markup) == [
+        "Where", "Holds", "The paper&#39;s statement", "Measured",
+    ]  # fmt: skip
+
+
+def test_terms_are_explained_once_a_section(report: Path) -> None:
+    text = report.read_text(encoding="utf-8")
+    main = text[text.index("<main") : text.index("</main>")]
+    defined = set(re.findall(r'<div popover id="([\w-]+)"', text))
+    for section in re.split("<section ", main)[1:]:
+        common = re.sub(r"<div data-view.*?</div>", "", section, flags=re.DOTALL)
+        used = re.findall(r'class="term" popovertarget="([\w-]+)"', common)
+        assert len(used) == len(set(used))
+        assert set(used) <= defined
+    assert {"term-lepp", "term-terminal-edge", "term-p"} <= set(
+        re.findall(r'popovertarget="([\w-]+)"', main)
+    )
 
 
 def test_markup_is_closed_and_ids_are_unique(read: Reader) -> None:
@@ -118,7 +209,7 @@ def test_captions_tell_tables_apart(report: Path) -> None:
 
 
 def test_nothing_is_fetched(read: Reader) -> None:
-    assert [a for a in read.addresses if not a.startswith(("#", "data:,"))] == []
+    assert [a for a in read.addresses if not a.startswith(("#", "data:"))] == []
 
 
 def test_every_view_of_every_figure_is_drawn_and_said(

@@ -32,30 +32,30 @@ def altered(evidence: Evidence, table: str, **values: object) -> Evidence:
     return replace(evidence, tables=evidence.tables.adding(changed))
 
 
-def prose(section: object, block_of: int = 0, part_of: int = 0) -> str:
-    paragraphs = section.parts[part_of].blocks[block_of].paragraphs  # type: ignore[attr-defined]
+def prose(section: object, part_of: int = 0) -> str:
+    paragraphs = section.parts[part_of].blocks[0].paragraphs  # type: ignore[attr-defined]
     return " ".join(paragraphs.get(VIEW.key, paragraphs.get("*", [])))
 
 
 def test_bounds_and_premise(evidence: Evidence) -> None:
     held = altered(evidence, "theorem_2", premise="yes")
-    said = prose(summary.section(held), block_of=1)
+    said = prose(summary.section(held))
     assert "hold in every triangulation, and follow from what holds as well, that every" in said
     broken = altered(evidence, "theorem_2", bounds="no")
-    assert "Theorem 2's bounds fail" in prose(summary.section(broken), block_of=1)
+    assert "Theorem 2's bounds fail" in prose(summary.section(broken))
     unfounded = altered(evidence, "theorem_2", premise="no", lowest_rate=0.2)
-    assert "although not every step" in prose(summary.section(unfounded), block_of=1)
+    assert "although not every step" in prose(summary.section(unfounded))
     assert "fails in every group" in prose(theory.section(unfounded))
 
 
 def test_growth(evidence: Evidence) -> None:
     grown = altered(evidence, "anova", p=1e-9)
-    assert "The mean grows with the number of points" in prose(summary.section(grown), block_of=1)
+    assert "The mean grows with the number of points" in prose(summary.section(grown))
     level = altered(evidence, "anova", p=0.5)
-    assert "does not depend on the number of points" in prose(summary.section(level), block_of=1)
+    assert "does not depend on the number of points" in prose(summary.section(level))
     means = evidence.tables["table_4"].frame["mean_lepp"]
     falling = altered(grown, "table_4", mean_lepp=-means)
-    assert "The mean falls with the number of points" in prose(summary.section(falling), block_of=1)
+    assert "The mean falls with the number of points" in prose(summary.section(falling))
 
 
 def test_verdicts_are_counted(evidence: Evidence) -> None:
@@ -78,7 +78,7 @@ def test_chance_is_not_blamed_for_too_many_rejections(evidence: Evidence) -> Non
 
 
 def test_numbers_in_tiles_are_those_of_the_tables(evidence: Evidence) -> None:
-    tiles = summary.section(evidence).parts[0].blocks[0].tiles[VIEW.key]  # type: ignore[union-attr]
+    tiles = summary.section(evidence).parts[0].blocks[1].tiles[VIEW.key]  # type: ignore[union-attr]
     rows = evidence.rows(GROUPS, VIEW)
     assert tiles[0].value == f"{rows['mean_lepp'].iloc[-1]:.4f}"
     histograms = evidence.rows(LAW, VIEW)
@@ -97,11 +97,11 @@ def test_premise_is_judged_at_all_sizes(evidence: Evidence) -> None:
     smallest = frame["n_points"] == DESIGN.sizes[0]
     known = altered(evidence, "theorem_2", lowest_rate=0.25, lowest_size=2)
     failing = altered(known, "theorem_2", premise=smallest.map({True: "no", False: "yes"}))
-    said = prose(summary.section(failing), block_of=1)
+    said = prose(summary.section(failing))
     assert f"at 1 of {len(DESIGN.sizes)} numbers of points, the least is 0.2500" in said
     assert f"fails in 1 of {len(DESIGN.sizes)} groups" in prose(theory.section(failing))
     unsure = altered(known, "theorem_2", premise=smallest.map({True: "undecided", False: "yes"}))
-    assert "while it stays open whether every" in prose(summary.section(unsure), block_of=1)
+    assert "while it stays open whether every" in prose(summary.section(unsure))
     groups = len(DESIGN.sizes)
     assert f"is clear in {groups - 1} of {groups} groups" in prose(theory.section(unsure))
     unknown = altered(evidence, "theorem_2", lowest_rate=float("nan"))

@@ -216,7 +216,7 @@ def test_the_best_of_the_four_models(name, best):
 
 def test_figures_say_where_the_curves_are():
     text = grown("saturating", "level")
-    for figure in ("figure-6", "figure-7"):
+    for figure in ("figure-models", "figure-projections"):
         match = re.fullmatch(
             r"At 2,000,000 points the curves for the whole mesh are from (\S+) \((.+)\) to (\S+) "
             r"\((.+)\), and the measured mean is (\S+)\.",
@@ -230,4 +230,4 @@ def test_a_run_of_one_size_says_nothing():
     said = page_text(drawn(DESIGN.model_copy(update={"sizes": (2000,)})))
     for part in ("fits", "projections", "table-7"):
         assert said.prose(part) == ""
-    assert said.finding("figure-6") == ""
+    assert said.finding("figure-models") == ""

@@ -374,11 +374,13 @@ def test_statements_are_counted():
 
 def test_worst_case_and_points():
     said = page("drawn")
-    assert "all have the mean (n + 1) / 2 and the maximum n exactly" in said.finding("figure-2")
-    assert said.finding("figure-3") == (
+    assert "all have the mean (n + 1) / 2 and the maximum n exactly" in said.finding(
+        "figure-worst-case"
+    )
+    assert said.finding("figure-points") == (
         "400 points of each distribution: the uniform ones fill the unit square."
     )
-    assert "from 12 at the narrow end to 1." in said.finding("figure-2")
+    assert "from 12 at the narrow end to 1." in said.finding("figure-worst-case")
 
 
 def test_methods_are_introduced_the_papers_first():
