@@ -157,18 +157,16 @@ class Key(NamedTuple):
 Fits = dict[Key, Fit]
 
 
-def _name(model: str, fitting: str, part: str = WHOLE) -> str:
-    return f"{model} regression, {fitting}{', interior' if part == INTERIOR else ''}"
+def _name(model: str, fitting: str) -> str:
+    return f"{model} regression, {fitting}"
 
 
-def _left_out_name(model: str, fitting: str, part: str = WHOLE) -> str:
-    return f"leave-one-group-out error of the {_name(model, fitting, part)}"
+def _left_out_name(model: str, fitting: str) -> str:
+    return f"leave-one-group-out error of the {_name(model, fitting)}"
 
 
 #: What is missing where means show no saturation, which says something of them.
-SATURATION_MISSING = frozenset(
-    name(SATURATING.name, WEIGHTED, part) for name in (_name, _left_out_name) for part in PARTS
-)
+SATURATION_MISSING = frozenset(name(SATURATING.name, WEIGHTED) for name in (_name, _left_out_name))
 
 
 @builds(REGRESSIONS, COEFFICIENTS, CURVES)
@@ -185,15 +183,19 @@ def _fit_all(study: Study) -> Fits:
     for method, distribution in study.data.populations:
         for fitting, part, models in FITTED:
             groups = study.data.groups(method, distribution, part)
-            if part == INTERIOR and not len(groups):
-                continue  # small meshes have none
             for model in models:
                 key = Key(method, distribution, part, model.name, fitting)
                 try:
                     fits[key] = _fit(model, Observations.of(groups, fitting == WEIGHTED))
                 except NotEnough as lack:
-                    study.lacks(method, distribution, _name(model.name, fitting, part), str(lack))
+                    _lacks(study, key, _name(model.name, fitting), lack)
     return fits
+
+
+def _lacks(study: Study, key: Key, what: str, lack: NotEnough) -> None:
+    # Of a small mesh there is no interior, or hardly any, and nothing is amiss.
+    if key.part == WHOLE:
+        study.lacks(key.method, key.distribution, what, str(lack))
 
 
 def _fit(model: LinearModel | SaturatingModel, seen: Observations) -> Fit:
@@ -212,8 +214,7 @@ def _regressions(study: Study, fits: Fits) -> Iterator[Row]:
         try:
             row["left_out_rmse"] = leave_one_group_out(fit.model, fit.observations)
         except NotEnough as lack:
-            what = _left_out_name(key.model, key.fitting, key.part)
-            study.lacks(key.method, key.distribution, what, str(lack))
+            _lacks(study, key, _left_out_name(key.model, key.fitting), lack)
         yield row | fit.quality()
 
 
