@@ -66,7 +66,7 @@ BUILDERS = (
     part_means.part_means,
     part_means.layer_means,
     part_means.longest_paths,
-    part_means.distribution_means,
+    part_means.common_means,
     regressions.regressions,
     model_scores.model_scores,
     limits.limits,

@@ -1,5 +1,6 @@
 """How tables are built: a builder a family of tables, each with the tables that it needs."""
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from graphlib import TopologicalSorter
@@ -177,7 +178,7 @@ def build(builders: Iterable[Builder], data: Measurements) -> tuple[Tables, list
     Raises
     ------
     ValueError
-        If a builder does not make the tables that it declares.
+        If a builder does not make the tables that it declares, or two make one of a name.
     UnknownNameError
         If a table that is needed is built by none.
     graphlib.CycleError
@@ -199,6 +200,9 @@ def build(builders: Iterable[Builder], data: Measurements) -> tuple[Tables, list
 
 
 def _in_order_of_needs(builders: list[Builder]) -> Iterable[int]:
+    names = Counter(made.name for one in builders for made in one.makes)
+    if names.most_common(1)[0][1] > 1:
+        raise ValueError(f"two builders make the table {names.most_common(1)[0][0]!r}")
     maker = {made.name: place for place, one in enumerate(builders) for made in one.makes}
     for need in (need for one in builders for need in one.needs):
         if need.name not in maker:

@@ -79,8 +79,8 @@ LONGEST_PATHS = Declaration(
     f"paths start, or {INTERIOR_LAYER} if more start in the interior.",
 )
 
-DISTRIBUTION_MEANS = Declaration(
-    "distribution_means",
+COMMON_MEANS = Declaration(
+    "common_means",
     "Whether all distributions have one mean",
     (
         METHOD,
@@ -184,8 +184,8 @@ def longest_paths(one: Population) -> Iterator[Row]:
         }
 
 
-@rows_of(DISTRIBUTION_MEANS)
-def distribution_means(study: Study) -> Iterator[Row]:
+@rows_of(COMMON_MEANS)
+def common_means(study: Study) -> Iterator[Row]:
     """Hold the distributions' means against one another, at each size."""
     design = study.data.design
     for method in design.methods:

@@ -127,9 +127,7 @@ def _figure(evidence: Evidence) -> FigureBlock:
         alternatives=per_view(evidence.views, say),
         reading=f"Bars are {LEVEL} intervals of the means. Above the whole mesh, below its "
         "interior, where there is one.",
-        data=(
-            TableBlock(DISTRIBUTION_MEANS, "Data: means of all distributions", follows=("method",)),
-        ),
+        data=(TableBlock(DISTRIBUTION_MEANS, "means of all distributions", follows=("method",)),),
     )
 
 

@@ -12,7 +12,7 @@ from reports.page.style import Spec
 from reports.page.views import View, distribution_name, distribution_word
 from reports.text.words import LEVEL
 from study.analysis.part_means import (
-    DISTRIBUTION_MEANS,
+    COMMON_MEANS,
     LAYER_MEANS,
     LONGEST_PATHS,
     PART_MEANS,
@@ -43,7 +43,7 @@ def section(evidence: Evidence) -> Section:
                     Prose(per_view(evidence.views, lambda view: _parts(evidence, view))),
                     _figure_parts(evidence),
                     TableBlock(
-                        DISTRIBUTION_MEANS,
+                        COMMON_MEANS,
                         "Whether the distributions have one mean",
                         columns=(
                             "part",
@@ -110,7 +110,7 @@ def _parts(evidence: Evidence, view: View) -> list[str] | None:
 
 def _one_mean(evidence: Evidence, view: View) -> str | None:
     """Say whether the distributions have one mean in the interior, at the largest size."""
-    rows = evidence.rows(DISTRIBUTION_MEANS, method=view.method, part=INTERIOR)
+    rows = evidence.rows(COMMON_MEANS, method=view.method, part=INTERIOR)
     if rows.empty:
         return None
     row = rows.last
@@ -198,7 +198,7 @@ def _figure_parts(evidence: Evidence) -> FigureBlock:
         reading=f"Dots are means over triangulations with {LEVEL} intervals; the horizontal scale "
         "is logarithmic.",
         data=(
-            TableBlock(PART_MEANS, "Data: means of the parts", follows=("method",)),
+            TableBlock(PART_MEANS, "means of the parts", follows=("method",)),
         ),
     )  # fmt: skip
 
@@ -299,7 +299,7 @@ def _figure_layers(evidence: Evidence) -> FigureBlock:
         alternatives=per_view(evidence.views, say),
         reading=f"The last dot is the interior: layer {INTERIOR_LAYER} and all beyond. Lines are "
         f"{LEVEL} intervals over triangulations of the largest number of points.",
-        data=(TableBlock(LAYER_MEANS, "Data: means of the layers"),),
+        data=(TableBlock(LAYER_MEANS, "means of the layers"),),
     )
 
 
@@ -379,5 +379,5 @@ def _figure_longest(evidence: Evidence) -> FigureBlock:
         alternatives=per_view(evidence.views, say),
         reading="At the left end are all triangles: there the share is that of the edge in the "
         "mesh. A line that rises says that long paths start at the edge.",
-        data=(TableBlock(LONGEST_PATHS, "Data: paths by size and part"),),
+        data=(TableBlock(LONGEST_PATHS, "paths by size and part"),),
     )

@@ -5,7 +5,7 @@ from grown_runs import grown
 from made_runs import page
 
 from lepp import INTERIOR_LAYER
-from study.analysis.part_means import DISTRIBUTION_MEANS, LAYER_MEANS, PART_MEANS
+from study.analysis.part_means import COMMON_MEANS, LAYER_MEANS, PART_MEANS
 
 VIEW = {"method": "incremental", "distribution": "uniform"}
 
@@ -38,7 +38,7 @@ def test_whether_distributions_have_one_interior_mean(apart, words):
     text = grown("saturating", "level", apart=apart)
     said = text.prose("parts")
     assert f"At 2,000,000 points the interiors of the 2 distributions {words}" in said
-    row = text.evidence.rows(DISTRIBUTION_MEANS, method="incremental", part="interior").last
+    row = text.evidence.rows(COMMON_MEANS, method="incremental", part="interior").last
     lowest, highest = row["lowest"], row["highest"]
     assert f"the {lowest} points have the lowest and the {highest} ones the highest, " in said
     assert f"{row['largest_difference']:.4f} apart" in said

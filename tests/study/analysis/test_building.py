@@ -85,3 +85,8 @@ def test_populations_that_lack_something_are_told_and_the_others_are_built(data)
         ("uniform", "a statistic", "one row"),
         ("exponential", "a statistic", "no more rows"),
     ]
+
+
+def test_two_builders_of_one_table_are_an_error(data):
+    with pytest.raises(ValueError, match="two builders make the table 'a'"):
+        build([counting(A), counting(B), counting(A)], data)

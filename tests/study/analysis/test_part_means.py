@@ -84,7 +84,7 @@ def test_the_longest_paths_are_those_of_the_largest_size(run):
 
 def test_whether_distributions_have_one_mean(run):
     asked, made, tables = run
-    frame = tables["distribution_means"].frame
+    frame = tables["common_means"].frame
     row = frame[(frame["part"] == "whole") & (frame["n_points"] == 4000)].iloc[0]
     data = Measurements.of(*made, asked)
     means = [SizeMeans.of(data.groups("incremental", one)) for one in asked.distributions]
@@ -112,11 +112,11 @@ def test_distributions_that_differ_are_told_from_those_that_do_not():
         mean_lepp=same["mean_lepp"] + 0.05 * (same["distribution"] == "exponential")
     )
     for changed, verdict in ((same, "not rejected"), (apart, "rejected")):
-        frame = analyse(changed, *others, asked)["distribution_means"].frame
+        frame = analyse(changed, *others, asked)["common_means"].frame
         whole = frame[frame["part"] == "whole"]
         assert set(whole["one_mean"]) == {verdict}
     one = design(methods=("incremental",), distributions=("uniform",))
-    assert analyse(*frames(one), one)["distribution_means"].frame.empty
+    assert analyse(*frames(one), one)["common_means"].frame.empty
 
 
 def test_meshes_without_an_interior():
