@@ -121,7 +121,7 @@ def _figure(evidence: Evidence) -> FigureBlock:
         return f"At {last['n_points'].iloc[0]:,} points the mean LEPP sizes are {listed(means)}."
 
     return FigureBlock(
-        id="figure-distributions",
+        id="figure-distribution-means",
         title="Mean LEPP size by distribution of the points",
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),

@@ -157,6 +157,7 @@ def _table_7(evidence: Evidence) -> Subsection:
                 ),
                 where={"fitting": WEIGHTED},
                 folded=True,
+                id="table-regressions-weighted",
             ),
             TableBlock(COEFFICIENTS, "Coefficients of the models, with intervals", folded=True),
         ),

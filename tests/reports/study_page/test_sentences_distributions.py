@@ -105,5 +105,5 @@ def test_one_distribution_has_no_such_section():
 def test_without_means_nothing_is_said():
     none = page_text(drawn(ASKED, results=lambda f: f.iloc[:0], layers=lambda f: f.iloc[:0]))
     assert none.prose(PART) == ""
-    assert none.finding("figure-distributions") == ""
+    assert none.finding("figure-distribution-means") == ""
     assert distributions.section(none.evidence).id == "distributions"

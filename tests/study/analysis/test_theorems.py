@@ -240,7 +240,7 @@ def test_region_sizes_hold_every_triangle(study):
 
 def test_intervals_of_region_sizes_are_those_of_a_jackknife(study):
     """A share is a ratio of sums: leave out one triangulation after the other."""
-    _, (_, _, regions, _), tables = study
+    _, (_, _, regions, _, _), tables = study
     one = {"method": "delaunay", "distribution": "uniform"}
     rows = tables["region_sizes"].rows(**one).frame.set_index("region_size")
     of_one = regions[(regions["method"] == "delaunay") & (regions["distribution"] == "uniform")]
