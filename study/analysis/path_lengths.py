@@ -29,7 +29,7 @@ from study.statistics.continuation import (
 )
 from study.statistics.groups import NotEnough
 from study.statistics.intervals import ratio_interval
-from study.statistics.thresholds import LEVEL, ROUGH_RATE, SIGNIFICANCE
+from study.statistics.thresholds import FEW_PATHS, LEVEL, ROUGH_RATE, SIGNIFICANCE
 from study.statistics.verdicts import rejected
 
 _SIZE = Column("lepp_size", "LEPP size", "triangles", "int")
@@ -100,8 +100,8 @@ CONTINUATION = Declaration(
     ),
     note="At the largest number of points. Ratios of sums over triangulations; their standard "
     "errors are from the residuals of the triangulations of all sizes, taken to grow with the "
-    f"number of paths. Theorem 1 takes the chance at the first step, k = {SHORTEST}, for all. "
-    + INTERIOR_NOTE,
+    f"number of paths; of fewer than {FEW_PATHS:,} paths they are not known. "
+    f"Theorem 1 takes the chance at the first step, k = {SHORTEST}, for all. " + INTERIOR_NOTE,
 )
 
 PATH_LAWS = Declaration(

@@ -14,7 +14,7 @@ from scipy import optimize
 from study.statistics.groups import NotEnough
 from study.statistics.intervals import t_quantile
 from study.statistics.tails import log10_f_tail
-from study.statistics.thresholds import ROUGH_RATE
+from study.statistics.thresholds import FEW_PATHS, ROUGH_RATE
 
 #: Size of the shortest path that takes a step.
 SHORTEST = 2
@@ -65,10 +65,16 @@ class Continuation:
 
     @property
     def half_widths(self) -> np.ndarray:
-        """Of the rates' t intervals, (s,) float64; NaN without degrees of freedom."""
+        """Of the rates' t intervals, (s,) float64; NaN without degrees of freedom.
+
+        NaN, too, where fewer than `thresholds.FEW_PATHS` paths reach the size: they may be one
+        bundle in one triangulation, whose residual is then zero.
+        """
         if self.df < 1:
             return np.full(len(self.rates), np.nan)
-        return t_quantile(self.df) * self.standard_errors
+        return np.where(
+            self.reached >= FEW_PATHS, t_quantile(self.df) * self.standard_errors, np.nan
+        )
 
     def sure(self) -> Self:
         """Only the sizes from 2 on up to the first whose rate is not known well.

@@ -18,6 +18,8 @@ TABLE_DIFFERS_BELOW = 0.01
 EQUIVALENT_WITHIN = 0.01
 #: Width of an interval from which on a rate of paths is too rough to be judged.
 ROUGH_RATE = 0.05
+#: Fewer paths than this that reach a size do not tell the error of its rate.
+FEW_PATHS = 1_000
 #: A difference of AIC beyond which the worse model has next to no support.
 CLEAR_AIC = 10.0
 #: A p below which a model of growth is refuted: by its lack of fit, or by sizes it has not seen.
