@@ -20,13 +20,15 @@ class Glossary {
   constructor() {
     /** @type {HTMLElement | null} */
     this.box = null;
+    /** @type {HTMLElement | null} */
+    this.term = null;
     this.leaving = 0;
     for (const term of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll(".term"))) this.wire(term);
     for (const box of document.querySelectorAll(".definition")) {
       box.addEventListener("pointerenter", () => clearTimeout(this.leaving));
       box.addEventListener("pointerleave", () => this.leave());
     }
-    addEventListener("scroll", () => this.hide(), { passive: true });
+    addEventListener("scroll", () => this.place(), { passive: true });
   }
 
   /** @param {HTMLElement} term */
@@ -50,11 +52,18 @@ class Glossary {
     clearTimeout(this.leaving);
     if (this.box !== box) this.hide();
     this.box = box;
+    this.term = term;
     if (!box.matches(":popover-open")) box.showPopover();
-    const { left, top } = placeBeside(term.getBoundingClientRect(), box.getBoundingClientRect(),
+    this.place();
+  }
+
+  /** Put the definition beside its term, which may have moved with the page. */
+  place() {
+    if (!this.term || !this.box) return;
+    const { left, top } = placeBeside(this.term.getBoundingClientRect(), this.box.getBoundingClientRect(),
       { width: document.documentElement.clientWidth, height: innerHeight });
-    box.style.left = `${left}px`;
-    box.style.top = `${top}px`;
+    this.box.style.left = `${left}px`;
+    this.box.style.top = `${top}px`;
   }
 
   /** Hide it soon, unless the pointer comes back or goes on to the definition. */

@@ -215,7 +215,7 @@ function drawTable(host, report, view, choices) {
       arrangement = { ...arrangement, filter: field.value };
       fill();
     });
-    head.append(element("div", { class: "tools" }, state, field));
+    head.append(element("div", { class: "tools" }, field, state));
   }
   const offer = (/** @type {string} */ name, /** @type {string} */ kind, /** @type {() => void} */ act) => {
     const button = element("button", { type: "button", class: kind, "aria-label": `${name}: ${caption}` }, name);

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from conftest import draw_all
 from playwright.sync_api import Page
 from tiny_runs import DESIGN
 
@@ -43,8 +42,7 @@ def is_reached(page: Page, place: str) -> bool:
 def test_deep_links_land_where_they_point(open_report: Open, width: int, place: str) -> None:
     page = open_report(f"#{place}", viewport={"width": width, "height": 900})
     assert is_reached(page, place)
-    draw_all(page)
-    page.wait_for_timeout(100)
+    page.wait_for_timeout(500)  # the figures nearby are drawn meanwhile
     assert is_reached(page, place)
 
 
