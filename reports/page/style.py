@@ -103,7 +103,7 @@ def axis(title: str, **more: Any) -> Spec:  # noqa: ANN401 - as above
     }
 
 
-def powers(title: str) -> Spec:
+def powers(title: str, **more: Any) -> Spec:  # noqa: ANN401 - as above
     """Logarithmic axis, a tick a power of ten."""
     return axis(
         title,
@@ -112,6 +112,7 @@ def powers(title: str) -> Spec:
         tickvals=[10.0**power for power in _POWERS],
         ticktext=[ten_to(power) if power else "1" for power in _POWERS],
         tickformatstops=[],
+        **more,
     )
 
 
@@ -220,7 +221,7 @@ def panels(
             "font": {"color": INK, "size": 13},
             "paper_bgcolor": _CLEAR,
             "plot_bgcolor": _CLEAR,
-            "margin": {"l": 12, "r": 12, "t": 16 + 20 * titled + 24 * (legend and titled), "b": 12},
+            "margin": {"l": 12, "r": 20, "t": 16 + 20 * titled + 24 * (legend and titled), "b": 12},
             "hovermode": "closest",
             "hoverlabel": {"bgcolor": SURFACE, "bordercolor": MUTED, "font": {"color": INK}},
             "legend": _LEGEND | {"bgcolor": _CLEAR} | ({"y": 1 + 40 / height} if titled else {}),

@@ -1,5 +1,7 @@
 """Terminal edges, and the regions of triangles whose paths end at one of them."""
 
+import math
+
 from reports.page import style
 from reports.page.blocks import FigureBlock, Prose, Section, Subsection, TableBlock, per_view
 from reports.page.evidence import Evidence
@@ -78,7 +80,10 @@ def _sizes(evidence: Evidence) -> FigureBlock:
                 hovertemplate="%{x} triangles: %{y}<extra></extra>",
             ),
             xaxis=style.axis("Triangles in the region"),
-            yaxis=style.powers("Share of the regions"),
+            # Of a size that was seen once or twice, the interval reaches down to nothing.
+            yaxis=style.powers(
+                "Share of the regions", range=[math.log10(rows["share"].min()) - 0.5, 0]
+            ),
         )
 
     def say(view: View) -> str | None:

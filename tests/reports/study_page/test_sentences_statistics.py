@@ -257,7 +257,6 @@ def test_spread_between_triangulations(name):
         f"The spread between triangulations {change} from {spread[0]:.4f} at 1,000 points to "
         f"{spread[-1]:.4f} at 8,000."
     )
-    assert page(name).finding("figure-triangulations") == expected
     assert page(name).finding("figure-groups") == expected
     assert (change == "shrinks") == (name == "narrowing")
 
