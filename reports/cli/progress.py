@@ -1,6 +1,6 @@
 """The progress of a run: a bar on a terminal, a line now and then elsewhere."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from datetime import timedelta
 from time import monotonic
@@ -23,6 +23,13 @@ from study.run.runner import Listener
 _LINE_SHARE = 0.1
 _LINE_SECONDS = 30.0
 
+#: The share of the work, and the seconds, from which on the rest can be told.
+_KNOWN_SHARE, _KNOWN_SECONDS = 0.03, 20.0
+#: A run of which more is left is a long one.
+_LONG_SECONDS = 300.0
+#: How many times the workers a cluster is said to have.
+_CLUSTER = 16
+
 
 def _load_report() -> None:
     """Import what writes the report, while the workers compute: it takes a second."""
@@ -34,6 +41,48 @@ def _plan(units: tuple[str, str], unfinished: Size, whole: Size) -> str:
     there = whole.parts - unfinished.parts
     goes_on = f", {there:,} of {whole.parts:,} are there" if there else ""
     return f"{unfinished.parts:,} {parts} to compute, {unfinished.work:,} {work}{goes_on}"
+
+
+class Prospect:
+    """Says once how long a long run takes, and how long with more workers.
+
+    Parameters
+    ----------
+    work : int
+        What there is to do.
+    n_threads : int
+        Tasks at a time.
+    clock : callable
+        Seconds.
+    """
+
+    def __init__(self, work: int, n_threads: int, clock: Callable[[], float] = monotonic) -> None:
+        self._work, self._n_threads, self._clock = work, n_threads, clock
+        self._start = clock()
+        self._done = 0
+        self._told = False
+
+    def after(self, work: int) -> str | None:
+        """Return the sentence, after more work was done; None if it is not time for it."""
+        self._done += work
+        seconds = self._clock() - self._start
+        if self._told or self._done < _KNOWN_SHARE * self._work or seconds < _KNOWN_SECONDS:
+            return None
+        self._told = True
+        left = seconds * (self._work - self._done) / self._done
+        if left < _LONG_SECONDS or not self._n_threads:
+            return None
+        more = _CLUSTER * self._n_threads
+        return (
+            f"About {_minutes(left)} are left with {self._n_threads} tasks at a time; a cluster "
+            f"with {more} (--scheduler) would take about {_minutes(left / _CLUSTER)}. A run that "
+            "is stopped goes on by the same command."
+        )
+
+
+def _minutes(seconds: float) -> str:
+    minutes = max(round(seconds / 60), 2)
+    return f"{minutes} minutes" if minutes < 120 else f"{round(minutes / 60)} hours"
 
 
 class _Rate(ProgressColumn):
@@ -57,8 +106,9 @@ class TerminalProgress:
         self._bars = bars
         self._bar: TaskID | None = None
 
-    def begin(self, units: tuple[str, str], unfinished: Size, whole: Size) -> None:
+    def begin(self, units: tuple[str, str], unfinished: Size, whole: Size, n_threads: int) -> None:
         """Start the bar."""
+        self._prospect = Prospect(unfinished.work, n_threads)
         self._bars.console.print(_plan(units, unfinished, whole), highlight=False)
         self._bar = self._bars.add_task("Computing", total=unfinished.work, work=units[1])
         _load_report()
@@ -67,6 +117,8 @@ class TerminalProgress:
         """Move the bar by the work of a task."""
         assert self._bar is not None, "begin comes first"
         self._bars.advance(self._bar, size.work)
+        if sentence := self._prospect.after(size.work):
+            self.note(sentence)
 
     def note(self, sentence: str) -> None:
         """Print a sentence above the bar."""
@@ -76,8 +128,9 @@ class TerminalProgress:
 class PlainProgress:
     """A line at the start, then one for every tenth of the work and at least every 30 s."""
 
-    def begin(self, units: tuple[str, str], unfinished: Size, whole: Size) -> None:
+    def begin(self, units: tuple[str, str], unfinished: Size, whole: Size, n_threads: int) -> None:
         """Print the first line."""
+        self._prospect = Prospect(unfinished.work, n_threads)
         self._total, self._work = unfinished.work, units[1]
         self._done = self._printed = 0
         self._start = self._last = monotonic()
@@ -87,6 +140,8 @@ class PlainProgress:
     def advance(self, outcome: Outcome, size: Size) -> None:
         """Count the work of a task; print a line if it is time."""
         self._done += size.work
+        if sentence := self._prospect.after(size.work):
+            self.note(sentence)
         now = monotonic()
         share = (self._done - self._printed) / self._total
         if self._done < self._total and (share >= _LINE_SHARE or now - self._last >= _LINE_SECONDS):

@@ -24,7 +24,12 @@ def evidence_of(loaded: store.Results) -> Evidence:
     """Analyse results, and add the report's own tables."""
     design = loaded.design
     tables = analyse(
-        loaded["results"], loaded["histograms"], loaded["regions"], loaded["point_sets"], design
+        loaded["results"],
+        loaded["histograms"],
+        loaded["regions"],
+        loaded["layers"],
+        loaded["point_sets"],
+        design,
     )
     evidence = Evidence(tables, design, loaded.manifest)
     added = (

@@ -5,7 +5,7 @@ import unicodedata
 from collections.abc import Mapping
 from importlib.metadata import version
 
-from reports.text.numbers import count
+from reports.text.numbers import count, listed
 from study.design.design import Design
 from study.paper.published import Citation
 
@@ -36,7 +36,7 @@ def report_entry(title: str, design: Design, manifest: Mapping) -> str:
         f"Report ``{title}'' of lepp-study {', '.join(versions(manifest))}: seed {design.seed}; "
         f"methods {', '.join(design.methods)}; distributions {', '.join(design.distributions)}; "
         f"{count(len(sizes), 'number')} of points, {points}; "
-        f"{count(design.repetitions, 'repetition')}"
+        f"{_repetitions(design.repetitions)}"
     )
     return _entry(
         "misc",
@@ -48,6 +48,12 @@ def report_entry(title: str, design: Design, manifest: Mapping) -> str:
             "note": note,
         },
     )
+
+
+def _repetitions(number: int | tuple[int, ...]) -> str:
+    if isinstance(number, int):
+        return count(number, "repetition")
+    return f"{listed([str(one) for one in number])} repetitions"
 
 
 def paper_entry(paper: Citation) -> str:

@@ -67,6 +67,7 @@ def analyse(
     results: pd.DataFrame,
     histograms: pd.DataFrame,
     regions: pd.DataFrame,
+    layers: pd.DataFrame,
     point_sets: pd.DataFrame,
     design: "Design",
 ) -> Tables:
@@ -80,6 +81,8 @@ def analyse(
         Counts of LEPP sizes: method, distribution, n_points, replicate, lepp_size, count.
     regions : pandas.DataFrame
         Counts of terminal-edge region sizes, with `region_size` in place of `lepp_size`.
+    layers : pandas.DataFrame
+        Counts of LEPP sizes by layer: the columns of `histograms`, and `layer`.
     point_sets : pandas.DataFrame
         A row a point set, with the p-values of its checks.
     design : Design
@@ -91,6 +94,6 @@ def analyse(
         By name. A table that the results do not suffice for has the rows that can be had; the
         table ``missing`` says what cannot, and why. The same results give the same tables.
     """
-    data = Measurements.of(results, histograms, regions, point_sets, design)
+    data = Measurements.of(results, histograms, regions, layers, point_sets, design)
     tables, missing = build(BUILDERS, data)
     return tables.adding(MISSING.table(asdict(entry) for entry in missing))

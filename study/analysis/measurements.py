@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
+from lepp import INTERIOR_LAYER
+from study.analysis.parts import WHOLE
 from study.run.measures import columns_of
 from study.run.triangulations import Measures, Task
 from study.statistics.groups import Groups
@@ -16,6 +18,8 @@ if TYPE_CHECKING:
     from study.design.design import Design
 
 _KEY = ["method", *Task._fields]
+_POPULATION = ["method", "distribution"]
+_SET = ["n_points", "replicate"]
 
 
 @dataclass(frozen=True)
@@ -30,6 +34,8 @@ class Measurements:
         A row for each task that failed.
     histograms, regions : pandas.DataFrame
         Counts of LEPP sizes and of terminal-edge region sizes.
+    layers : pandas.DataFrame
+        Counts of LEPP sizes by the layer of the triangle.
     point_sets : pandas.DataFrame
         A row for each point set, with the p-values of its checks.
     design : Design
@@ -40,6 +46,7 @@ class Measurements:
     failures: pd.DataFrame
     histograms: pd.DataFrame
     regions: pd.DataFrame
+    layers: pd.DataFrame
     point_sets: pd.DataFrame
     design: "Design"
 
@@ -49,6 +56,7 @@ class Measurements:
         results: pd.DataFrame,
         histograms: pd.DataFrame,
         regions: pd.DataFrame,
+        layers: pd.DataFrame,
         point_sets: pd.DataFrame,
         design: "Design",
     ) -> "Measurements":
@@ -60,6 +68,7 @@ class Measurements:
             failures=_ordered(results[failed], design),
             histograms=_ordered(histograms, design),
             regions=_ordered(regions, design),
+            layers=_ordered(layers, design),
             point_sets=_ordered(point_sets, design),
             design=design,
         )
@@ -80,9 +89,60 @@ class Measurements:
     def _by_population(self) -> dict[tuple[str, str], pd.DataFrame]:
         return dict(list(self.results.groupby(["method", "distribution"], sort=False)))
 
-    def groups(self, method: str, distribution: str) -> Groups:
-        """Mean LEPP sizes of one method and distribution."""
-        return groups_of(self.triangulations(method, distribution), "mean_lepp")
+    def groups(self, method: str, distribution: str, part: str = WHOLE) -> Groups:
+        """Mean LEPP sizes of one method and distribution, in a part of each mesh that is there."""
+        if part == WHOLE:
+            return groups_of(self.triangulations(method, distribution), "mean_lepp")
+        counts = self.histogram(method, distribution, part)
+        sums = (
+            counts.assign(total=counts["lepp_size"] * counts["count"])
+            .groupby(_SET, sort=True)[["total", "count"]]
+            .sum()
+            .reset_index()
+        )
+        return groups_of(sums.assign(mean_lepp=sums["total"] / sums["count"]), "mean_lepp")
+
+    def histogram(self, method: str, distribution: str, part: str = WHOLE) -> pd.DataFrame:
+        """Return counts of LEPP sizes of one method and distribution, in a part of each mesh.
+
+        Returns
+        -------
+        pandas.DataFrame
+            n_points, replicate, lepp_size, count; none for a mesh that has no such part.
+        """
+        if part == WHOLE:
+            return _of_population(self._histograms, method, distribution, self.histograms)
+        layers = self.by_layer(method, distribution)
+        return layers[layers["layer"] == INTERIOR_LAYER].drop(columns="layer")
+
+    def by_layer(self, method: str, distribution: str) -> pd.DataFrame:
+        """Rows of `layers` of one method and distribution, without these two columns."""
+        return _of_population(self._layers, method, distribution, self.layers)
+
+    @cached_property
+    def _histograms(self) -> dict[tuple[str, str], pd.DataFrame]:
+        return _by_population(self.histograms)
+
+    @cached_property
+    def _layers(self) -> dict[tuple[str, str], pd.DataFrame]:
+        return _by_population(self.layers)
+
+
+def _by_population(frame: pd.DataFrame) -> dict[tuple[str, str], pd.DataFrame]:
+    return {
+        (method, distribution): rows.drop(columns=_POPULATION).reset_index(drop=True)
+        for (method, distribution), rows in frame.groupby(_POPULATION, sort=False)
+    }
+
+
+def _of_population(
+    frames: dict[tuple[str, str], pd.DataFrame],
+    method: str,
+    distribution: str,
+    whole: pd.DataFrame,
+) -> pd.DataFrame:
+    nothing = whole.iloc[:0].drop(columns=_POPULATION)
+    return frames.get((method, distribution), nothing)
 
 
 def groups_of(triangulations: pd.DataFrame, column: str) -> Groups:
@@ -99,7 +159,7 @@ def _ordered(frame: pd.DataFrame, design: "Design") -> pd.DataFrame:
         return {name: place for place, name in enumerate(names)}
 
     ranks = {"method": rank(design.methods), "distribution": rank(design.distributions)}
-    keys = (*_KEY, "lepp_size", "region_size")
+    keys = (*_KEY, "layer", "lepp_size", "region_size")
     by = [name for name in keys if name in frame.columns]
     return frame.sort_values(
         by,

@@ -16,8 +16,9 @@ from pydantic import (
     StrictInt,
     ValidationError,
     field_validator,
+    model_validator,
 )
-from pydantic_core import ErrorDetails
+from pydantic_core import ErrorDetails, PydanticCustomError
 
 from lepp import METHODS, InputError
 from study.design.sampling import DISTRIBUTIONS
@@ -32,6 +33,9 @@ MAX_SEED = 2**63 - 1
 
 DEFAULT_SEED = 2022
 
+#: The error of a list of repetitions that is longer or shorter than that of the sizes.
+_ONE_A_SIZE = "one_a_size"
+
 _ALLOWED = {
     "methods": f"a list with one or more of {', '.join(METHODS)}",
     "distributions": f"a list with one or more of {', '.join(DISTRIBUTIONS)}",
@@ -39,7 +43,10 @@ _ALLOWED = {
         f"a list of whole numbers of points from {MIN_POINTS} to {MAX_POINTS:,}, or a range "
         "such as { first = 10000, last = 200000, step = 10000 }"
     ),
-    "repetitions": f"a whole number from 1 to {MAX_TRIANGULATIONS:,}",
+    "repetitions": (
+        f"a whole number from 1 to {MAX_TRIANGULATIONS:,}, or a list with one for each of the "
+        "sizes, none of which is there twice"
+    ),
     "seed": f"a whole number from 0 to {MAX_SEED}",
     "correlation": "a number between -1 and 1, both excluded",
 }
@@ -65,8 +72,8 @@ class Design(BaseModel):
         Distributions of the points, of `study.design.sampling.DISTRIBUTIONS`; kept in that order.
     sizes : tuple of int
         Numbers of points, ascending. A table ``{first, last, step}`` stands for a range.
-    repetitions : int
-        Point sets for each distribution and size.
+    repetitions : int or tuple of int
+        Point sets for each distribution and size: the same number for all sizes, or one a size.
     seed : int
         Seed of all point sets.
     correlation : float
@@ -82,24 +89,46 @@ class Design(BaseModel):
     sizes: tuple[Annotated[StrictInt, Field(ge=MIN_POINTS, le=MAX_POINTS)], ...] = Field(
         min_length=1
     )
-    repetitions: StrictInt = Field(ge=1, le=MAX_TRIANGULATIONS)
+    repetitions: int | tuple[int, ...]
     seed: StrictInt = Field(DEFAULT_SEED, ge=0, le=MAX_SEED)
     correlation: StrictFloat = Field(0.5, gt=-1, lt=1, allow_inf_nan=False)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _order_repetitions(cls, settings: dict[str, Any]) -> dict[str, Any]:
+        """Bring repetitions, where there is one a size, into the order of the sizes."""
+        repetitions = settings.get("repetitions")
+        if not isinstance(repetitions, list | tuple):
+            return settings
+        try:
+            sizes = _expanded(settings.get("sizes"))
+            pairs = sorted(zip(sizes, repetitions, strict=True))
+            if len(dict(pairs)) < len(pairs):
+                raise ValueError(sizes)
+        except (TypeError, ValueError):
+            return settings  # what is wrong with it, the fields' own checks say
+        each = tuple(one for _, one in pairs)
+        alike = all(type(one) is int for one in each) and len(set(each)) == 1
+        return settings | {"repetitions": each[0] if alike else list(each)}
+
+    @field_validator("repetitions", mode="before")
+    @classmethod
+    def _check_repetitions(cls, repetitions: object) -> object:
+        each = repetitions if isinstance(repetitions, list | tuple) else (repetitions,)
+        if not each or any(type(n) is not int or not 1 <= n <= MAX_TRIANGULATIONS for n in each):
+            raise ValueError(repetitions)
+        return repetitions
+
+    @model_validator(mode="after")
+    def _check_one_a_size(self) -> Self:
+        if isinstance(self.repetitions, tuple) and len(self.repetitions) != len(self.sizes):
+            raise PydanticCustomError(_ONE_A_SIZE, "repetitions")
+        return self
 
     @field_validator("sizes", mode="before")
     @classmethod
     def _expand_range(cls, sizes: object) -> object:
-        if not isinstance(sizes, dict):
-            return sizes
-        numbers = list(sizes.values())
-        if set(sizes) != {"first", "last", "step"} or any(type(n) is not int for n in numbers):
-            raise ValueError(sizes)
-        first, last, step = sizes["first"], sizes["last"], sizes["step"]
-        if not (MIN_POINTS <= first <= last <= MAX_POINTS and step > 0):
-            raise ValueError(sizes)
-        if (last - first) // step >= MAX_TRIANGULATIONS:
-            raise ValueError(sizes)
-        return list(range(first, last + 1, step))
+        return _expanded(sizes)
 
     # One order for every way of writing a design: equal designs have equal results, byte for byte.
     @field_validator("methods")
@@ -118,16 +147,22 @@ class Design(BaseModel):
         return tuple(sorted(set(sizes)))
 
     @property
+    def repetitions_by_size(self) -> dict[int, int]:
+        """Point sets of each distribution, by size."""
+        if isinstance(self.repetitions, tuple):
+            return dict(zip(self.sizes, self.repetitions, strict=True))
+        return dict.fromkeys(self.sizes, self.repetitions)
+
+    @property
     def n_triangulations(self) -> int:
         """Number of triangulations."""
-        groups = len(self.methods) * len(self.distributions) * len(self.sizes)
-        return groups * self.repetitions
+        return len(self.methods) * len(self.distributions) * sum(self.repetitions_by_size.values())
 
     @property
     def n_points(self) -> int:
         """Number of points of all triangulations together."""
-        groups = len(self.methods) * len(self.distributions)
-        return groups * self.repetitions * sum(self.sizes)
+        points = sum(size * sets for size, sets in self.repetitions_by_size.items())
+        return len(self.methods) * len(self.distributions) * points
 
     @classmethod
     def from_settings(cls, settings: dict[str, Any], where: str = "The design") -> Self:
@@ -215,6 +250,21 @@ def preset_names() -> list[str]:
     )
 
 
+def _expanded(sizes: object) -> Any:  # noqa: ANN401 - whatever a file has in its place
+    """Return the sizes that a table ``{first, last, step}`` stands for; else what is given."""
+    if not isinstance(sizes, dict):
+        return sizes
+    numbers = list(sizes.values())
+    if set(sizes) != {"first", "last", "step"} or any(type(n) is not int for n in numbers):
+        raise ValueError(sizes)
+    first, last, step = sizes["first"], sizes["last"], sizes["step"]
+    if not (MIN_POINTS <= first <= last <= MAX_POINTS and step > 0):
+        raise ValueError(sizes)
+    if (last - first) // step >= MAX_TRIANGULATIONS:
+        raise ValueError(sizes)
+    return list(range(first, last + 1, step))
+
+
 def _in_words(value: object) -> str:
     if isinstance(value, tuple):
         if len(value) > 8:
@@ -225,6 +275,8 @@ def _in_words(value: object) -> str:
 
 def _sentence(where: str, error: ErrorDetails) -> str:
     """Say what pydantic found wrong: the setting, its value, and what is allowed."""
+    if error["type"] == _ONE_A_SIZE:
+        return f"{where} does not have one number among its repetitions for each of its sizes."
     name = str(error["loc"][0])
     if error["type"] == "extra_forbidden":
         return f"{where} has an unknown setting {name!r}; the settings are {', '.join(_ALLOWED)}."

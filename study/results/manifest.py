@@ -11,7 +11,7 @@ from lepp import InputError
 from study.run.kinds import Kind
 from study.run.registry import KINDS
 
-FORMAT = 2
+FORMAT = 3
 MANIFEST = "manifest.json"
 
 #: Packages whose versions can change a number, or a byte, of the results or the report.

@@ -109,11 +109,17 @@ def check_request(
         As in `connect`.
     """
     if scheduler is None:
-        # In a container, its limit; what other programs hold is not there either.
-        available = min(MEMORY_LIMIT, psutil.virtual_memory().available)
-        check_memory(kind, design, workers or CPU_COUNT, available)
+        check_memory(kind, design, 1, free_memory())
     elif workers is not None:
         raise InputError("Give --workers or --scheduler, not both: a scheduler has its own.")
+
+
+def free_memory() -> int:
+    """Return the bytes that are free on this computer.
+
+    In a container, at most its limit; what other programs hold is not there either.
+    """
+    return int(min(MEMORY_LIMIT, psutil.virtual_memory().available))
 
 
 @contextmanager
@@ -162,8 +168,8 @@ class _Silence:
 _SILENCE = _Silence()
 
 
-def check_memory(kind: Kind, design: Any, workers: int, available: int) -> None:  # noqa: ANN401 - of the kind's own type
-    """Raise `InputError` if the largest tasks, one a worker, do not fit into memory.
+def check_memory(kind: Kind, design: Any, at_once: int, available: int) -> None:  # noqa: ANN401 - of the kind's own type
+    """Raise `InputError` if the largest tasks do not fit into memory.
 
     Parameters
     ----------
@@ -171,17 +177,18 @@ def check_memory(kind: Kind, design: Any, workers: int, available: int) -> None:
         The kind of the tasks.
     design : kind.design
         The design.
-    workers : int
+    at_once : int
         Tasks at a time.
     available : int
         Memory for all of them, in bytes.
     """
-    what, needed = kind.memory_of(design)
-    if needed * workers <= available:
+    tasks = kind.tasks_of(design)
+    what, needed = max((kind.memory_of(task, design) for task in tasks), key=lambda m: m.n_bytes)
+    if needed * at_once <= available:
         return
     fits = available // needed
-    advice = f"use --workers {fits}" if fits else "use smaller sizes"
-    each = f" and {workers} at once {_gigabytes(needed * workers)}" if workers > 1 else ""
+    advice = f"start the workers with --nthreads {fits}" if fits else "use smaller sizes"
+    each = f" and {at_once} at once {_gigabytes(needed * at_once)}" if at_once > 1 else ""
     raise InputError(
         f"{what} takes about {_gigabytes(needed)} of memory{each}, "
         f"but {_gigabytes(available)} are free: {advice}."
@@ -201,6 +208,8 @@ def _local(workers: int) -> Iterator[Client]:
                 threads_per_worker=1,
                 processes=True,  # each with a nanny, which replaces it when it dies
                 host="127.0.0.1",
+                # How many tasks fit side by side is planned: a large one may have it all.
+                memory_limit=free_memory(),
                 dashboard_address=None,
                 # Without a dashboard there still is a server of metrics, by default on port 8787.
                 scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},

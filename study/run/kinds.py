@@ -158,8 +158,8 @@ class Kind(ABC, Generic[Task, D]):
         """Return the size of a task."""
 
     @abstractmethod
-    def memory_of(self, design: D) -> Memory:
-        """Return the most memory that a task of the design takes."""
+    def memory_of(self, task: Task, design: D) -> Memory:
+        """Return the memory that a task takes."""
 
     @abstractmethod
     def prepare(self) -> None:

@@ -1,6 +1,6 @@
 """Run a design: stream its tasks to the workers, keep what comes back, try again what fails."""
 
-from collections import Counter, deque
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -11,14 +11,9 @@ from distributed import Client, Future, KilledWorker, as_completed, get_worker
 
 from lepp import InputError
 from study.results.store import Store
-from study.run.cluster import check_request, connect
+from study.run.batches import Batches, Load
+from study.run.cluster import check_request, connect, free_memory
 from study.run.kinds import Kind, Outcome, Size
-
-#: Tasks of less work (such as points) than this are sent several at a time.
-BATCH_WORK = 2_000_000
-
-#: The last batches are smaller, so that no worker is left with a long one at the end.
-_LAST_SHARE = 4
 
 #: Batches under way for each thread of a worker: one computed, one waiting there, one on its way.
 _AHEAD = 3
@@ -34,9 +29,6 @@ _LOST = (
     "goes on from there when the scheduler is back."
 )
 
-Batch = list[Any]
-"""Tasks of the study's kind."""
-
 
 class RunStoppedError(InputError):
     """The cluster was lost in the middle of a run; what was finished is kept."""
@@ -45,10 +37,11 @@ class RunStoppedError(InputError):
 class Listener(Protocol):
     """What follows the progress of a run."""
 
-    def begin(self, units: tuple[str, str], unfinished: Size, whole: Size) -> None:
+    def begin(self, units: tuple[str, str], unfinished: Size, whole: Size, n_threads: int) -> None:
         """Hear how much there is to compute, and how much the whole study is, in units.
 
-        The workers have their first tasks by then, so this may take a second.
+        The workers, which perform `n_threads` tasks at a time, have their first ones by then, so
+        this may take a second.
         """
 
     def advance(self, outcome: Outcome, size: Size) -> None:
@@ -141,6 +134,8 @@ def run(
         If the directory or the cluster cannot be used; `RunStoppedError` if the scheduler is lost.
     """
     start = perf_counter()
+    # Somebody else's workers each have room for as many tasks as they have threads.
+    memory = free_memory() if scheduler is None else None
     computed, kernel_seconds, n_threads = [Size(0, 0)], 0.0, 0
     if not directory.exists():  # nothing is left of a run that could not begin
         check_request(kind, design, workers, scheduler)
@@ -148,7 +143,7 @@ def run(
         if store.unfinished:
             with connect(kind, design, workers, scheduler, listener.note) as client:
                 threads = Threads(client)
-                for outcome in compute(client, threads, store, listener):
+                for outcome in compute(client, threads, store, listener, memory):
                     size = kind.size_of(outcome.task, design)
                     listener.advance(outcome, size)
                     computed.append(size)
@@ -161,7 +156,11 @@ def run(
 
 
 def compute(
-    client: Client, threads: Threads, store: Store, listener: Listener
+    client: Client,
+    threads: Threads,
+    store: Store,
+    listener: Listener,
+    memory: int | None = None,
 ) -> Iterator[Outcome]:
     """Compute the unfinished tasks of a store on a cluster, and keep what comes back.
 
@@ -175,6 +174,9 @@ def compute(
         Gives the tasks and takes their outcomes.
     listener : Listener
         Hears of the beginning, and if the workers are gone.
+    memory : int, optional
+        Bytes for all tasks under way together: what does not fit side by side runs one after the
+        other. No limit if not given.
 
     Yields
     ------
@@ -184,38 +186,39 @@ def compute(
     kind, design = store.kind, store.design
     unfinished = store.unfinished
     sizes = {task: kind.size_of(task, design) for task in store.tasks}
-    batches = _batches([(task, sizes[task].work) for task in unfinished], max(threads.now, 1))
-    again: deque[Any] = deque()
+    needs = {task: kind.memory_of(task, design).n_bytes for task in unfinished}
+    loads = [(task, Load(sizes[task].work, needs[task])) for task in unfinished]
+    batches = Batches(loads, max(threads.now, 1), memory)
     attempts: Counter[Any] = Counter()
-    under_way: dict[Future, Batch] = {}
     # Typed Any because this class of distributed has no annotations.
     arrivals: Any = cast(Any, as_completed)(loop=client.loop, with_results=True, raise_errors=False)
     begun = not unfinished
     while True:
-        while len(under_way) < _AHEAD * max(threads.now, 1):
-            batch = [again.popleft()] if again else next(batches, None)
+        while len(batches) < _AHEAD * max(threads.now, 1):
+            batch = batches.next()
             if batch is None:
                 break
             # Not pure: a name of its own, whatever else runs at this scheduler.
-            future = client.submit(perform_batch, batch, kind, design, pure=False)
-            under_way[future] = batch
+            future = client.submit(perform_batch, batch.tasks, kind, design, pure=False)
+            batches.begin(future, batch)
             arrivals.add(future)
         if not begun:
             todo = Size.total([sizes[task] for task in unfinished])
-            listener.begin(kind.units, todo, Size.total(list(sizes.values())))
+            whole = Size.total(list(sizes.values()))
+            listener.begin(kind.units, todo, whole, threads.now)
             begun = True
-        if not under_way:
+        if not len(batches):
             return
         arrived = arrivals.next_batch(block=False)
         for future, result in arrived:
-            batch = under_way.pop(future)
+            tasks = batches.end(future).tasks
             final = []
-            for outcome in _outcomes_of(future, result, batch, kind, design):
+            for outcome in _outcomes_of(future, result, tasks, kind, design):
                 attempts[outcome.task] += 1
                 if outcome.error is None or attempts[outcome.task] >= ATTEMPTS:
                     final.append(outcome)
                 else:
-                    again.append(outcome.task)
+                    batches.again(outcome.task, needs[outcome.task])
             yield from store.add(final)
         if client.status != "running":
             raise RunStoppedError(_LOST)
@@ -238,28 +241,10 @@ def perform_batch(tasks: Sequence[Any], kind: Kind, design: Any) -> list[Outcome
     return outcomes
 
 
-def _batches(tasks: Sequence[tuple[Any, int]], n_threads: int) -> Iterator[Batch]:
-    """Divide tasks, each with its work, into batches, the largest tasks first."""
-    remaining = sum(work for _, work in tasks)
-    batch: Batch = []
-    in_batch = 0
-    limit = min(BATCH_WORK, remaining // (_LAST_SHARE * n_threads))
-    for task, work in sorted(tasks, key=lambda entry: -entry[1]):
-        if batch and in_batch + work > limit:
-            yield batch
-            remaining -= in_batch
-            limit = min(BATCH_WORK, remaining // (_LAST_SHARE * n_threads))
-            batch, in_batch = [], 0
-        batch.append(task)
-        in_batch += work
-    if batch:
-        yield batch
-
-
 def _outcomes_of(
     future: Future,
     result: object,
-    batch: Batch,
+    tasks: Sequence[Any],
     kind: Kind,
     design: Any,  # noqa: ANN401 - of the kind's own type
 ) -> list[Outcome]:
@@ -267,7 +252,7 @@ def _outcomes_of(
         return cast(list[Outcome], result)
     if future.status == "error":
         _, error, _ = cast(tuple[type, BaseException, object], result)
-        return [kind.failed(task, design, _in_words(error)) for task in batch]
+        return [kind.failed(task, design, _in_words(error)) for task in tasks]
     raise RunStoppedError(_LOST)
 
 

@@ -34,15 +34,17 @@ class Measured:
 
     triangulation: lepp.Triangulation
     paths: lepp.LeppPaths
+    by_layer: NDArray[np.int64]
     counts: lepp.LeppCounts
     region_sizes: NDArray[np.int64]
 
     @classmethod
     def of(cls, triangulation: lepp.Triangulation) -> "Measured":
-        """Follow the paths of a triangulation."""
+        """Follow the paths of a triangulation, and count their sizes layer by layer."""
         paths = lepp.lepp_paths(triangulation)
-        counts = lepp.LeppCounts.from_sizes(paths.sizes)
-        return cls(triangulation, paths, counts, np.bincount(paths.regions))
+        by_layer = lepp.sizes_by_layer(lepp.triangle_layers(triangulation), paths.sizes)
+        counts = lepp.LeppCounts(by_layer.sum(axis=0))
+        return cls(triangulation, paths, by_layer, counts, np.bincount(paths.regions))
 
     def of_type(self, neighbor_type: int) -> int:
         """Count the triangles whose neighbour across their longest edge is of a type."""
@@ -116,7 +118,8 @@ class Triangulations(Kind[Task, Design]):
     """Point sets, each drawn and checked once and triangulated by every method of the design.
 
     Its tables: ``results``, a row a triangulation with its `measures`; ``histograms`` and
-    ``regions``, a row a triangulation and LEPP size or size of a terminal-edge region;
+    ``regions``, a row a triangulation and LEPP size or size of a terminal-edge region; ``layers``,
+    the histograms parted by the layer of the triangle, `lepp.INTERIOR_LAYER` the last;
     ``point_sets``, a row a point set with its `PointChecks`; ``timings``, a row a stage of a
     triangulation, or with the method "" of its point set.
     """
@@ -136,12 +139,14 @@ class Triangulations(Kind[Task, Design]):
         """The tables, by name."""
         task = fields_of(Task)
         method = pa.field("method", pa.string())
+        lepp_size = pa.field("lepp_size", pa.int64())
         count = pa.field("count", pa.int64())
         measures = [column.field for column in columns_of(self.measures)]
         checks = [column.field for column in columns_of(PointChecks)]
         columns = {
             "results": [method, *task, *measures, pa.field(ERROR, pa.string())],
-            "histograms": [method, *task, pa.field("lepp_size", pa.int64()), count],
+            "histograms": [method, *task, lepp_size, count],
+            "layers": [method, *task, pa.field("layer", pa.int64()), lepp_size, count],
             "regions": [method, *task, pa.field("region_size", pa.int64()), count],
             "point_sets": [*task, *checks],
             "timings": [
@@ -162,8 +167,8 @@ class Triangulations(Kind[Task, Design]):
         return [
             Task(distribution, n_points, replicate)
             for distribution in design.distributions
-            for n_points in design.sizes
-            for replicate in range(design.repetitions)
+            for n_points, repetitions in design.repetitions_by_size.items()
+            for replicate in range(repetitions)
         ]
 
     def order_of(self, design: Design) -> Mapping[str, Sequence[object]]:
@@ -174,10 +179,10 @@ class Triangulations(Kind[Task, Design]):
         """Count triangulations, and the points of each."""
         return Size(len(design.methods), len(design.methods) * task.n_points)
 
-    def memory_of(self, design: Design) -> Memory:
-        """Return what one of the largest triangulations takes."""
-        largest = design.sizes[-1]
-        return Memory(f"A triangulation of {largest:,} points", largest * BYTES_PER_POINT)
+    def memory_of(self, task: Task, design: Design) -> Memory:
+        """Return what the largest of its triangulations takes; they are made one by one."""
+        n = task.n_points
+        return Memory(f"A triangulation of {n:,} points", n * BYTES_PER_POINT)
 
     def prepare(self) -> None:
         """Compile the kernels, or load them."""
@@ -239,8 +244,9 @@ class Triangulations(Kind[Task, Design]):
         subject = Measured.of(triangulation)
         rows: dict[str, list[Cells]] = {
             "results": [(method, *astuple(measured(self.measures, subject)), None)],
-            "histograms": _histogram(method, subject.counts.counts),
-            "regions": _histogram(method, np.bincount(subject.region_sizes)),
+            "histograms": _bars(method, subject.counts.counts),
+            "layers": _bars(method, subject.by_layer),
+            "regions": _bars(method, np.bincount(subject.region_sizes)),
         }
         stages.end(method, "lepp")
         return rows
@@ -262,11 +268,15 @@ class _Stages:
         self._last = now
 
 
-def _histogram(method: str, counts: NDArray[np.integer]) -> list[Cells]:
-    """Rows of the sizes that occur and how often they do, ascending."""
-    sizes = np.flatnonzero(counts)
-    bars = zip(sizes.tolist(), counts[sizes].tolist(), strict=True)
-    return [(method, size, count) for size, count in bars]
+def _bars(method: str, counts: NDArray[np.integer]) -> list[Cells]:
+    """Rows of a histogram: the places of its counts that are not 0, ascending, and the counts."""
+    places = np.nonzero(counts)
+    return [
+        (method, *place, count)
+        for *place, count in zip(
+            *(p.tolist() for p in places), counts[places].tolist(), strict=True
+        )
+    ]
 
 
 #: The kind; it has no state.

@@ -68,6 +68,22 @@ def edges_of(triangle):
     return [tuple(sorted(edge)) for edge in ((b, c), (c, a), (a, b))]
 
 
+def layers(triangles, last):
+    """Steps across edges from each triangle to one on the boundary, at most `last`."""
+    beside = {}
+    for t, triangle in enumerate(triangles):
+        for edge in edges_of(triangle):
+            beside.setdefault(edge, []).append(t)
+    steps = dict.fromkeys((ts[0] for ts in beside.values() if len(ts) == 1), 0)
+    for step in range(1, last):
+        reached = [t for t, before in steps.items() if before == step - 1]
+        for t in reached:
+            for edge in edges_of(triangles[t]):
+                for s in beside[edge]:
+                    steps.setdefault(s, step)
+    return [min(steps.get(t, last), last) for t in range(len(triangles))]
+
+
 class Paths:
     """Longest-edge propagation paths by their definition, in rational arithmetic.
 

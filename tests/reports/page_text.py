@@ -66,7 +66,7 @@ def page_text(results: Results) -> PageText:
 
 def drawn(design: Design, **changes: Change) -> Results:
     """Results drawn from a generator, with some of their frames changed."""
-    names = ("results", "histograms", "regions", "point_sets")
+    names = ("results", "histograms", "regions", "layers", "point_sets")
     made = dict(zip(names, frames(design), strict=True))
     for name, change in changes.items():
         made[name] = change(made[name])

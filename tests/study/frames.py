@@ -3,6 +3,7 @@
 import numpy as np
 import pandas as pd
 
+from lepp import INTERIOR_LAYER
 from study.design.design import Design
 from study.run.measures import columns_of
 from study.run.point_checks import PointChecks
@@ -34,14 +35,25 @@ def long_counts(key, name, counts):
     ]
 
 
+def layers_of(key, counts, rng):
+    """The counts parted at random among the hull, the layer next to it, and the interior."""
+    parts = [rng.binomial(counts, share) for share in (0.1, 0.1)]
+    parts.append(counts - sum(parts))
+    return [
+        row | {"layer": layer}
+        for layer, part in zip((0, 1, INTERIOR_LAYER), parts, strict=True)
+        for row in long_counts(key, "lepp_size", part)
+    ]
+
+
 def frames(design, seed=0):
-    """Results, histograms, regions and point sets: sizes drawn from near-geometric laws."""
-    results, histograms, regions = [], [], []
+    """Results, histograms, regions, layers, point sets: sizes drawn from near-geometric laws."""
+    results, histograms, regions, layers = [], [], [], []
     for method in design.methods:
         share_c = {"incremental": 0.486, "delaunay": 0.303}[method]
         for distribution in design.distributions:
-            for n in design.sizes:
-                for replicate in range(design.repetitions):
+            for n, repetitions in design.repetitions_by_size.items():
+                for replicate in range(repetitions):
                     place = (seed, len(method), len(distribution), n, replicate)
                     rng = np.random.default_rng(place)
                     key = (method, distribution, n, replicate)
@@ -60,6 +72,7 @@ def frames(design, seed=0):
                     region = np.bincount(rng.multinomial(m - ends, np.full(ends, 1 / ends)) + 1)
                     histograms += long_counts(key, "lepp_size", counts)
                     regions += long_counts(key, "region_size", region)
+                    layers += layers_of(key, counts, rng)
                     results.append(
                         dict.fromkeys(column.name for column in MEASURES)
                         | dict(zip(KEY, key, strict=True))
@@ -88,6 +101,7 @@ def frames(design, seed=0):
         pd.DataFrame(results)[[*KEY, *(column.name for column in MEASURES), "error"]],
         pd.DataFrame(histograms, columns=count_columns["lepp_size"]),
         pd.DataFrame(regions, columns=count_columns["region_size"]),
+        pd.DataFrame(layers, columns=[*KEY, "layer", "lepp_size", "count"]),
         _point_sets(design, seed),
     )
 
@@ -97,8 +111,8 @@ def _point_sets(design, seed):
     sets = [
         (distribution, n, replicate)
         for distribution in design.distributions
-        for n in design.sizes
-        for replicate in range(design.repetitions)
+        for n, repetitions in design.repetitions_by_size.items()
+        for replicate in range(repetitions)
     ]
     values = np.random.default_rng((seed, 1)).random((len(sets), len(CHECKS)))
     checks = pd.DataFrame(values, columns=[column.name for column in CHECKS])

@@ -14,6 +14,7 @@ from reports.text.words import TITLE
 from study.analysis.analyse import MISSING
 from study.analysis.group_summaries import OVERVIEW
 from study.analysis.table import Rows
+from study.design.design import Design
 from study.paper.published import CITATION
 
 
@@ -28,13 +29,22 @@ def section(evidence: Evidence) -> Section:
     return Section("made", "How it was made", "Can I make it again?", tuple(parts))
 
 
+def _repetitions(design: Design) -> str:
+    by_size = design.repetitions_by_size
+    of_sizes = "point sets for each distribution"
+    if len(set(by_size.values())) == 1:
+        return f"{next(iter(by_size.values())):,} {of_sizes} and size"
+    each = listed([f"{sets:,} of {size:,}" for size, sets in by_size.items()])
+    return f"{of_sizes}: {each} points"
+
+
 def _design(evidence: Evidence) -> Facts:
     design = evidence.design
     facts = [
         ("Triangulation", listed([METHODS[name].word for name in design.methods])),
         ("Distributions", listed([distribution_word(d) for d in design.distributions])),
         ("Numbers of points", _sizes(design.sizes)),
-        ("Repetitions", f"{design.repetitions:,} point sets for each distribution and size"),
+        ("Repetitions", _repetitions(design)),
         ("Seed", str(design.seed)),
         ("Triangulations", f"{design.n_triangulations:,} of {design.n_points:,} points in all"),
     ]

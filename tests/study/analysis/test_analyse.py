@@ -136,9 +136,9 @@ def test_one_group_of_equal_means_is_left_out():
 
 def test_everything_failed():
     asked = design()
-    results, histograms, regions, sets = frames(asked)
+    results, histograms, regions, layers, sets = frames(asked)
     results = failed(results, range(len(results)))
-    tables = analyse(results, histograms.iloc[:0], regions.iloc[:0], sets, asked)
+    tables = analyse(results, histograms.iloc[:0], regions.iloc[:0], layers.iloc[:0], sets, asked)
     bytes_of(tables)
     assert tables["overview"].frame["failed"].tolist() == [24, 24]
     assert (tables["statements"].frame["holds"] == "not tested").all()
@@ -175,7 +175,12 @@ def test_triangulations_of_one_triangle():
     results = results.assign(**counted)
     key = results[["method", "distribution", "n_points", "replicate"]]
     tables = analyse(
-        results, key.assign(lepp_size=1, count=1), key.assign(region_size=1, count=1), sets, asked
+        results,
+        key.assign(lepp_size=1, count=1),
+        key.assign(region_size=1, count=1),
+        key.assign(layer=0, lepp_size=1, count=1),
+        sets,
+        asked,
     )
     bytes_of(tables)
     assert tables["groups"].frame["mean_lepp"].tolist() == [1.0]

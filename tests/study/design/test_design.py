@@ -19,7 +19,27 @@ def test_presets_share_the_seed_and_differ_in_the_method():
     assert paper.difference(delaunay) == "methods is incremental there and delaunay here"
     assert both.methods == ("incremental", "delaunay")
     assert {paper.seed, delaunay.seed, both.seed} == {paper.seed}
-    assert preset_names() == ["both", "delaunay", "paper", "smoke"]
+    assert preset_names() == ["beyond", "both", "delaunay", "paper", "smoke"]
+
+
+def test_beyond_goes_to_ten_million_points_with_more_sets_of_the_small_ones():
+    beyond = Design.from_preset("beyond")
+    assert beyond.sizes[-1] == 10_000_000
+    assert beyond.repetitions_by_size[10_000] == 200
+    assert beyond.repetitions_by_size[10_000_000] == 32
+    sets = sum(beyond.repetitions_by_size.values())
+    assert beyond.n_triangulations == 2 * 4 * sets
+    assert beyond.n_points == 8 * sum(n * r for n, r in beyond.repetitions_by_size.items())
+
+
+def test_repetitions_go_with_their_sizes_in_any_order():
+    one = Design.from_settings({"sizes": [300, 100, 200], "repetitions": [3, 1, 2]})
+    assert one.repetitions_by_size == {100: 1, 200: 2, 300: 3}
+    assert one == Design.from_settings(one.model_dump(mode="json"))
+    alike = Design.from_settings({"sizes": [300, 100], "repetitions": [4, 4]})
+    assert alike == Design.from_settings({"sizes": [100, 300], "repetitions": 4})
+    ranged = {"sizes": {"first": 10, "last": 30, "step": 10}, "repetitions": [5, 6, 7]}
+    assert Design.from_settings(ranged).repetitions_by_size == {10: 5, 20: 6, 30: 7}
 
 
 def test_every_way_of_writing_a_design_gives_the_same_one():
@@ -52,6 +72,13 @@ def test_every_way_of_writing_a_design_gives_the_same_one():
         (SMALL | {"repetitions": 0}, "repetitions = 0, which is not allowed"),
         (SMALL | {"repetitions": True}, "repetitions = True"),
         (SMALL | {"repetitions": 2.0}, "repetitions = 2.0"),
+        (SMALL | {"repetitions": [2, 0]}, "repetitions = [2, 0], which"),
+        (SMALL | {"repetitions": [2, True]}, "repetitions = [2, True], which"),
+        (SMALL | {"repetitions": []}, "repetitions = [], which"),
+        (SMALL | {"repetitions": ["2", 2]}, "repetitions = ['2', 2], which"),
+        (SMALL | {"repetitions": [2]}, "have one number among its repetitions for each of its si"),
+        (SMALL | {"repetitions": [1, 2, 3]}, "have one number among its repetitions for each of"),
+        ({"sizes": [10, 20, 10], "repetitions": [1, 2, 3]}, "have one number among its repetitio"),
         (SMALL | {"sizes": [100, 2]}, "2 among its sizes"),
         (SMALL | {"sizes": [0]}, "0 among its sizes"),
         (SMALL | {"sizes": [MAX_POINTS + 1]}, "268435456 among its sizes"),
@@ -89,7 +116,7 @@ def test_a_file_is_read_and_a_wrong_one_named(tmp_path):
         Design.from_toml(path)
     with pytest.raises(InputError, match=r"Cannot read the design .*No such file"):
         Design.from_toml(tmp_path / "none.toml")
-    with pytest.raises(InputError, match="no preset 'papers'; the presets are both, delaunay"):
+    with pytest.raises(InputError, match="no preset 'papers'; the presets are beyond, both, del"):
         Design.from_preset("papers")
 
 

@@ -23,7 +23,9 @@ DESIGN = Design.from_settings(
 )
 TASKS = TRIANGULATIONS.tasks_of(DESIGN)
 MEASURES = columns_of(Measures)
-FILES = ("results.parquet", "histograms.parquet", "regions.parquet", "point_sets.parquet")
+FILES = tuple(
+    f"{name}.parquet" for name in ("results", "histograms", "layers", "regions", "point_sets")
+)
 
 
 def outcome(task, error=None, duration=0.25):
@@ -40,6 +42,7 @@ def outcome(task, error=None, duration=0.25):
     rows = {
         "results": [(method, *measures, None)],
         "histograms": bars,
+        "layers": [(method, 0, *bar) for _, *bar in bars],
         "regions": bars[:1],
         "point_sets": [(float("nan") if task.replicate == 0 else draw.random(), *checks)],
         "timings": [("", "sample", duration), (method, "lepp", duration)],
@@ -497,7 +500,7 @@ def test_timings_cut_short_are_named(whole):
         (lambda text: "[]", "was cut short or edited"),
         (lambda text: text.replace('"tasks"', '"task"'), "was cut short or edited"),
         (lambda text: text.replace('"sha256"', '"sha"'), "was cut short or edited"),
-        (lambda text: text.replace('"format": 2', '"format": 99'), "is of format 99, and this"),
+        (lambda text: text.replace('"format": 3', '"format": 99'), "is of format 99, and this"),
         (lambda text: text.replace('"repetitions": 3', '"repetitions": 0'), "repetitions = 0"),
     ],
 )

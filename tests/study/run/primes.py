@@ -68,7 +68,7 @@ class Primes(Kind):
     def size_of(self, task, design):
         return Size(1, design.length)
 
-    def memory_of(self, design):
+    def memory_of(self, task, design):
         return Memory("A range", 8 * design.length)
 
     def prepare(self):

@@ -14,7 +14,7 @@ ONE = 1_000_000 * BYTES_PER_POINT
 
 def test_memory_is_checked_for_the_largest_triangulations_at_once():
     check_memory(TRIANGULATIONS, DESIGN, 4, 4 * ONE)
-    with pytest.raises(InputError, match=r"1,000,000 points .* and 4 at once .*use --workers 3"):
+    with pytest.raises(InputError, match=r"1,000,000 points .* and 4 at once .*with --nthreads 3"):
         check_memory(TRIANGULATIONS, DESIGN, 4, 4 * ONE - 1)
     with pytest.raises(InputError, match="are free: use smaller sizes"):
         check_memory(TRIANGULATIONS, DESIGN, 1, ONE - 1)

@@ -33,7 +33,7 @@ def threads():
 
 
 class Deaf:
-    def begin(self, units, unfinished, whole):
+    def begin(self, units, unfinished, whole, n_threads):
         self.begun = units, unfinished, whole
 
     def note(self, sentence):

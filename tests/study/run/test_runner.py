@@ -16,10 +16,8 @@ from study.results.store import Store, load
 from study.run.kinds import Size
 from study.run.runner import (
     ATTEMPTS,
-    BATCH_WORK,
     RunStoppedError,
     Threads,
-    _batches,
     compute,
     run,
 )
@@ -30,6 +28,7 @@ TASKS = TRIANGULATIONS.tasks_of(DESIGN)
 FILES = (
     "results.parquet",
     "histograms.parquet",
+    "layers.parquet",
     "regions.parquet",
     "point_sets.parquet",
     "manifest.json",
@@ -42,7 +41,7 @@ class Heard:
     def __init__(self, act=None, after=1):
         self.tasks, self.notes, self.act, self.after = [], [], act, after
 
-    def begin(self, units, unfinished, whole):
+    def begin(self, units, unfinished, whole, n_threads):
         self.units, self.unfinished, self.whole = units, unfinished, whole
 
     def advance(self, outcome, size):
@@ -93,23 +92,6 @@ def threads():
         yield client
 
 
-def test_batches_hold_every_task_once_the_largest_first():
-    tasks = TRIANGULATIONS.tasks_of(Design.from_preset("paper"))
-    batches = list(_batches([(task, task.n_points) for task in tasks], 2))
-    flat = [task for batch in batches for task in batch]
-    assert sorted(flat) == sorted(tasks)
-    assert [t.n_points for t in flat] == sorted((t.n_points for t in tasks), reverse=True)
-    points = [sum(task.n_points for task in batch) for batch in batches]
-    assert max(points) <= BATCH_WORK
-    assert len(batches) < 250
-    assert max(points[-4:]) < BATCH_WORK / 4
-
-
-def test_a_task_larger_than_a_batch_is_one():
-    tasks = [(k, 3 * BATCH_WORK) for k in range(3)]
-    assert list(_batches(tasks, 1)) == [[0], [1], [2]]
-
-
 def test_a_failing_task_is_recorded_and_a_shaky_one_tried_again(
     threads, tmp_path, monkeypatch, whole
 ):
@@ -141,6 +123,29 @@ def test_a_failing_task_is_recorded_and_a_shaky_one_tried_again(
         again = compute(threads, Threads(threads), store, heard)
         assert [o.task for o in again] == [hopeless]
         store.finish()
+    assert contents(tmp_path) == contents(whole)
+
+
+def test_what_does_not_fit_side_by_side_runs_one_after_the_other(
+    threads, tmp_path, monkeypatch, whole
+):
+    together, most = [], []
+    perform = Triangulations.perform
+
+    def watched(self, task, design):
+        together.append(task)
+        most.append(len(together))
+        try:
+            return perform(self, task, design)
+        finally:
+            together.remove(task)
+
+    monkeypatch.setattr(Triangulations, "perform", watched)
+    monkeypatch.setattr("study.run.batches.BATCH_WORK", 1)
+    with Store(tmp_path, TRIANGULATIONS, DESIGN) as store:
+        list(compute(threads, Threads(threads), store, Heard(), memory=1))
+        store.finish()
+    assert max(most) == 1
     assert contents(tmp_path) == contents(whole)
 
 

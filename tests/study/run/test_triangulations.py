@@ -46,7 +46,7 @@ def moments(counts):
 
 
 def twin_of(points, method):
-    """Measures, histogram and regions of one triangulation."""
+    """Measures, and the tables that count something, of one triangulation."""
     triangles, repeated = TWINS[method](points)
     paths = naive.Paths(points, sorted(triangles))
     everything = range(len(triangles))
@@ -79,7 +79,17 @@ def twin_of(points, method):
         "n_equal_longest": paths.n_equal(),
         "n_nearly_equal_longest": nearly,
     }
-    return measures, sorted(sizes.items()), sorted(Counter(regions.values()).items())
+    layers = naive.layers(paths.triangles, lepp.INTERIOR_LAYER)
+    bars = {
+        "histograms": sizes,
+        "layers": Counter(zip(layers, paths.sizes(), strict=True)),
+        "regions": Counter(regions.values()),
+    }
+    return measures, bars
+
+
+def of_method(rows, method):
+    return [row for row in rows if row[0] == method]
 
 
 @pytest.mark.parametrize("distribution", DISTRIBUTIONS)
@@ -97,14 +107,16 @@ def test_every_measure_is_the_twins(distribution, lattice, monkeypatch):
     for method in DESIGN.methods:
         if lattice and method == "delaunay":
             continue  # which diagonals of a square are drawn is not the twin's
-        measures, histogram, regions = twin_of(points, method)
+        measures, bars = twin_of(points, method)
         assert set(measures) == {column.name for column in columns_of(Measures)}
         for column, cell in zip(columns_of(Measures), rows[method][:-1], strict=True):
             assert type(cell) is column.type
             assert cell == pytest.approx(measures[column.name], rel=1e-12, abs=1e-12), column.name
         assert rows[method][-1] is None
-        for name, bars in (("histograms", histogram), ("regions", regions)):
-            assert [row[1:] for row in outcome.rows[name] if row[0] == method] == bars
+        for name, counts in bars.items():
+            assert of_method(outcome.rows[name], method) == [
+                (method, *np.atleast_1d(place).tolist(), counts[place]) for place in sorted(counts)
+            ]
     checks = check_randomness(points, distribution)
     assert outcome.rows["point_sets"] == [tuple(vars(checks).values())]
     stages = [row[:2] for row in outcome.rows["timings"]]
