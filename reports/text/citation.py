@@ -7,7 +7,7 @@ from importlib.metadata import version
 
 from study.design.design import Design
 from study.paper.published import Citation
-from study.text.numbers import count
+from study.text.numbers import count, listed
 
 #: As CITATION.cff has them.
 SOFTWARE_TITLE = (
@@ -32,15 +32,11 @@ def report_entry(title: str, design: Design, manifest: Mapping) -> str:
     """BibTeX entry of a report: what made it, and from what."""
     sizes = design.sizes
     points = f"{sizes[0]} to {sizes[-1]}" if len(sizes) > 1 else f"{sizes[0]}"
-    sets = sorted(set(design.repetitions_by_size.values()))
-    repetitions = (
-        count(sets[0], "repetition") if len(sets) == 1 else f"{sets[0]} to {sets[-1]} repetitions"
-    )
     note = (
         f"Report ``{title}'' of lepp-study {', '.join(versions(manifest))}: seed {design.seed}; "
         f"methods {', '.join(design.methods)}; distributions {', '.join(design.distributions)}; "
         f"{count(len(sizes), 'number')} of points, {points}; "
-        f"{repetitions}"
+        f"{_repetitions(design.repetitions)}"
     )
     return _entry(
         "misc",
@@ -52,6 +48,12 @@ def report_entry(title: str, design: Design, manifest: Mapping) -> str:
             "note": note,
         },
     )
+
+
+def _repetitions(number: int | tuple[int, ...]) -> str:
+    if isinstance(number, int):
+        return count(number, "repetition")
+    return f"{listed([str(one) for one in number])} repetitions"
 
 
 def paper_entry(paper: Citation) -> str:

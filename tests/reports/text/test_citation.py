@@ -40,6 +40,8 @@ def test_the_entry_of_a_report_names_what_it_takes_to_make_it_again() -> None:
     assert "year" not in entry
     single = report_entry("How far?", design(sizes=(300,)), manifest("1.2"))
     assert "1 number of points, 300; 6" in single
+    each = design(sizes=(300, 600, 900), repetitions=(9, 4, 1))
+    assert "300 to 900; 9, 4 and 1 repetitions}" in report_entry("How far?", each, manifest("1.2"))
 
 
 def test_the_entry_of_the_paper_has_its_doi_only_where_that_is_confirmed() -> None:
