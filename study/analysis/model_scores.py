@@ -55,8 +55,8 @@ MODEL_SCORES = Declaration(
         Column("akaike_weight", "Akaike weight", "", "percent1"),
         Column("standing", "Model"),
     ),
-    note="Weighted fits to the means of the sizes; variances are a power of the number of points "
-    f"and count as known. A model is fitted to the sizes up to {PUBLISHED_UP_TO:,} points, the "
+    note="Weighted fits to the means of the sizes; variances are a smooth function of the number of "
+    f"points and count as known. A model is fitted to the sizes up to {PUBLISHED_UP_TO:,} points, the "
     "paper's range, and predicts the others; where there are none, or too few to fit, the largest "
     "quarter is predicted from the rest. Chi-squared of the prediction has the errors of the "
     "means and, with all covariances, those of the fit; both are held against F with the "

@@ -100,8 +100,8 @@ COMMON_MEANS = Declaration(
         Column("highest", "Highest", "", "name"),
     ),
     note="The means of the distributions weighted by their reciprocal squared standard errors, and "
-    "their weighted squares about it; variances are powers of the number of points within each "
-    f"distribution. Rejected at {SIGNIFICANCE}. The interval of the mean supposes that it is one.",
+    "their weighted squares about it; variances are smooth functions of the number of points "
+    f"within each distribution. Rejected at {SIGNIFICANCE}. The interval of the mean supposes that it is one.",
 )
 
 

@@ -19,6 +19,7 @@ from study.analysis.table import (
     select,
 )
 from study.statistics.continuation import (
+    ENOUGH,
     SHORTEST,
     Continuation,
     LawFit,
@@ -98,9 +99,10 @@ CONTINUATION = Declaration(
         Column("fitted", f"Law {FALLING}", "", "fixed4"),
         Column("constant", "Theorem 1", "", "fixed4"),
     ),
-    note="At the largest number of points. Ratios of sums over triangulations; their standard "
-    "errors are from the residuals of the triangulations of all sizes, taken to grow with the "
-    f"number of paths; of fewer than {FEW_PATHS:,} paths they are not known. "
+    note=f"At the largest number of points with {ENOUGH} triangulations or more. Ratios of sums "
+    "over triangulations, with the standard errors of such; where no number of points has as many, "
+    "at the largest, with the residuals of all sizes, taken to grow with the number of paths. "
+    f"Of fewer than {FEW_PATHS:,} paths they are not known. "
     f"Theorem 1 takes the chance at the first step, k = {SHORTEST}, for all. " + INTERIOR_NOTE,
 )
 
@@ -128,7 +130,7 @@ PATH_LAWS = Declaration(
         Column("longest_expected", "Longest expected", "triangles", "int"),
         Column("longest_seen", "Longest seen", "triangles", "int"),
     ),
-    note="Of the rates at the largest number of points, from k = 2 on as far as their intervals "
+    note="Of the rates of the table before, from k = 2 on as far as their intervals "
     f"are narrower than {ROUGH_RATE:g}. Paths run through the same triangles, so that "
     "neighbouring rates are correlated: the laws are fitted to the rates by generalised least "
     "squares with their covariance, ± are standard errors, and p allows for the covariance being "
@@ -291,7 +293,10 @@ def _level(chance: float) -> Callable[[np.ndarray], np.ndarray]:
 
 
 def _continuation(one: Population, part: str) -> tuple[int, Continuation]:
-    """Return the largest number of points of which the part is there, and its rates."""
+    """Return the number of points that the rates are of, and the rates.
+
+    It is the largest with enough triangulations for a covariance; if none has, the largest.
+    """
     frame = one.data.histogram(one.method, one.distribution, part)
     if frame.empty:
         raise NotEnough("no triangulation has it")
@@ -299,7 +304,10 @@ def _continuation(one: Population, part: str) -> tuple[int, Continuation]:
         int(size): counts_by_task(group, "lepp_size")
         for size, group in frame.groupby("n_points", sort=True)
     }
-    return max(groups), continuation(list(groups.values()))
+    enough = [size for size, counts in groups.items() if len(counts) >= ENOUGH]
+    n_points = max(enough or groups)
+    upto = [counts for size, counts in groups.items() if size <= n_points]
+    return n_points, continuation(upto)
 
 
 def _lepp_counts(one: Population) -> np.ndarray:

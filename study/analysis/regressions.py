@@ -90,8 +90,8 @@ REGRESSIONS = Declaration(
         Column("rmse", "Root mean square residual", "triangles", "g4"),
         Column("left_out_rmse", "Error of left-out groups", "triangles", "g4"),
     ),
-    note="One observation a triangulation; weights are reciprocal variances, which are a power of "
-    "the number of points. The logistic model is a straight line for ln(y / (4 - y)), as "
+    note="One observation a triangulation; weights are reciprocal variances, which are a smooth "
+    "function of the number of points. The logistic model is a straight line for ln(y / (4 - y)), as "
     "the published coefficients and R squared are; its adjusted R squared, F and p are on that "
     "scale. AIC, BIC and both errors are on the scale of y for all models, "
     "and so comparable: AIC and BIC among the fits of the same observations. Weights "

@@ -19,6 +19,9 @@ from study.statistics.thresholds import FEW_PATHS, ROUGH_RATE
 #: Size of the shortest path that takes a step.
 SHORTEST = 2
 
+#: Triangulations of one number of points from which on their own covariance is used.
+ENOUGH = 16
+
 #: Range of ln(2 + b) in which the law is looked for. Towards its upper end the law becomes an
 #: exponential in k, towards its lower end a constant after a first, different rate.
 _LEAST_SHIFT, _MOST_SHIFT = np.log(0.05), np.log(200.0)
@@ -121,11 +124,14 @@ def continuation(groups: Sequence[np.ndarray]) -> Continuation:
     A rate is a ratio of sums over independent triangulations (Cochran (1977), Sampling
     Techniques, section 6.3). The paths of one triangulation run through the same triangles: rates
     of neighbouring sizes are correlated, up to 0.8. Their covariance is that of the residuals
-    (paths that go on, less the rate of the group times paths that reach the size), which is taken
-    to be proportional to the number of paths in the triangulation, and so can be pooled over the
-    groups: a few triangulations of the largest size would not suffice to estimate it.
+    (paths that go on, less the rate of the group times paths that reach the size) of the last
+    group, if it has `ENOUGH` triangulations. Of fewer it cannot be estimated: then it is taken to
+    be proportional to the number of paths in the triangulation, and pooled over all groups. In
+    large meshes by plain insertion it is more than that.
     """
     last = _reached(groups[-1]).sum(axis=0)
+    if len(groups[-1]) >= ENOUGH:
+        groups = groups[-1:]
     sizes = np.flatnonzero(last[:-1] > 0)
     sizes = sizes[sizes >= SHORTEST]
     if not len(sizes):

@@ -10,7 +10,7 @@ from study.statistics.groups import Groups, NotEnough
 from study.statistics.intervals import t_quantile
 from study.statistics.models import ASYMPTOTE, SATURATING, LinearModel, SaturatingModel, logit
 from study.statistics.tails import log10_f_tail
-from study.statistics.variance_function import power_law_variances
+from study.statistics.variance_function import smooth_variances
 
 #: Exponents b of the saturating model that are looked at. At the lower end c - a x^(-b) is a
 #: logarithm, at the upper a constant beyond the first group.
@@ -33,7 +33,7 @@ class Observations:
     group : (n,) integer ndarray
         Index of its size.
     weighted : bool
-        Whether each is weighted by the reciprocal variance of its group, a power of its size.
+        Whether each is weighted by the reciprocal variance of its group, a smooth function of its size.
     """
 
     x: np.ndarray
@@ -53,7 +53,7 @@ class Observations:
         """Weight of each observation for a fit to `y`, (n,) float64."""
         if not self.weighted:
             return np.ones(len(y))
-        return 1 / power_law_variances(self.groups(y))[self.group]
+        return 1 / smooth_variances(self.groups(y))[self.group]
 
     def groups(self, y: np.ndarray) -> Groups:
         """Part `y` by size."""

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from study.statistics.groups import Groups
-from study.statistics.variance_function import power_law_variances
+from study.statistics.variance_function import smooth_variances
 
 
 @dataclass(frozen=True)
@@ -34,14 +34,14 @@ class SizeMeans:
 
     @classmethod
     def of(cls, groups: Groups) -> "SizeMeans":
-        """Take the means of groups, whose variance is a power of the number of points.
+        """Take the means of groups, whose variance is a smooth function of the number of points.
 
         Raises
         ------
         NotEnough
             If no group has two or more differing triangulations.
         """
-        spread = power_law_variances(groups)
+        spread = smooth_variances(groups)
         return cls(
             groups.n_points,
             groups.means,

@@ -1,13 +1,22 @@
-"""The variance between triangulations as a power of the number of points."""
+"""The variance between triangulations as a smooth function of the number of points."""
+
+from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
+from scipy import special
 
 from study.statistics.groups import Groups, NotEnough
+from study.statistics.thresholds import SIGNIFICANCE
 
 _MOST_STEPS, _CLOSE = 100, 1e-12
+#: Sizes, and triangulations of each, from which on a curve is looked for.
+_LEAST_SIZES, _LEAST_COUNT = 5, 6
+#: Quantile of chi-squared with one degree of freedom.
+_CURVED = float(special.chdtri(1, SIGNIFICANCE))
 
 
-def power_law_variances(groups: Groups) -> np.ndarray:
+def smooth_variances(groups: Groups) -> np.ndarray:
     """Estimate the variance of a value of each group, smoothed over all groups.
 
     Parameters
@@ -27,33 +36,57 @@ def power_law_variances(groups: Groups) -> np.ndarray:
     Notes
     -----
     A mean over n points whose far parts do not depend on one another has a variance in proportion
-    to a power of n. Sample variances are gamma distributed about it, with (r - 1) / 2 as shape for
-    r triangulations; ln variance = alpha + beta ln n is fitted by maximum likelihood (McCullagh and
-    Nelder 1989, Generalized Linear Models, chapter 8, by iteratively reweighted least squares). A
+    to 1 / n; where early triangles are never taken back, it falls more slowly from some n on. So
+    ln variance = alpha + beta ln n, with a further gamma (ln n)^2 where the deviance falls by more
+    than the quantile of chi-squared for it. Sample variances are gamma distributed about that, with
+    (r - 1) / 2 as shape for r triangulations; fitted by maximum likelihood (McCullagh and Nelder
+    1989, Generalized Linear Models, chapter 8, by iteratively reweighted least squares). A
     reciprocal sample variance of three triangulations is no weight: its mean is infinite.
     """
     repeated = groups.repeated()
     if not len(repeated):
         raise NotEnough("no size has two or more differing triangulations")
-    df = repeated.counts - 1.0
-    center = np.average(np.log(repeated.n_points), weights=df)
-    basis = _basis(repeated.n_points, center, len(repeated))
-    root = np.sqrt(df)[:, None]
-    # Of ln s^2 first, which is near enough to start from.
-    target = np.log(repeated.variances)
-    log_variance = np.zeros_like(target)
-    for _ in range(_MOST_STEPS):
-        coefficients = np.linalg.lstsq(basis * root, target * root[:, 0], rcond=None)[0]
-        before, log_variance = log_variance, basis @ coefficients
-        if np.abs(log_variance - before).max() < _CLOSE:
-            break
-        # A step is bounded, so that a bad start cannot throw the fit far off.
-        excess = np.minimum(repeated.variances / np.exp(log_variance) - 1, 3.0)
-        target = log_variance + excess
-    return np.exp(_basis(groups.n_points, center, len(repeated)) @ coefficients)
+    fit = _Fit.of(repeated, 2)
+    # Of fewer the deviance is no chi-squared.
+    if len(repeated) >= _LEAST_SIZES and repeated.counts.min() >= _LEAST_COUNT:
+        bent = _Fit.of(repeated, 3)
+        fit = bent if fit.deviance - bent.deviance > _CURVED else fit
+    return fit.variances(groups.n_points)
 
 
-def _basis(n_points: np.ndarray, center: float, sizes: int) -> np.ndarray:
+@dataclass(frozen=True)
+class _Fit:
+    """A polynomial of ln n, of as many coefficients as the sizes allow."""
+
+    center: float
+    coefficients: np.ndarray
+    deviance: float
+
+    @classmethod
+    def of(cls, groups: Groups, coefficients: int) -> Self:
+        df = groups.counts - 1.0
+        center = float(np.average(np.log(groups.n_points), weights=df))
+        basis = _basis(groups.n_points, center, min(coefficients, len(groups)))
+        root = np.sqrt(df)[:, None]
+        # Of ln s^2 first, which is near enough to start from.
+        target = np.log(groups.variances)
+        log_variance = np.zeros_like(target)
+        for _ in range(_MOST_STEPS):
+            fitted = np.linalg.lstsq(basis * root, target * root[:, 0], rcond=None)[0]
+            before, log_variance = log_variance, basis @ fitted
+            if np.abs(log_variance - before).max() < _CLOSE:
+                break
+            # A step is bounded, so that a bad start cannot throw the fit far off.
+            excess = np.minimum(groups.variances / np.exp(log_variance) - 1, 3.0)
+            target = log_variance + excess
+        ratio = groups.variances / np.exp(log_variance)
+        return cls(center, fitted, float(df @ (ratio - 1 - np.log(ratio))))
+
+    def variances(self, n_points: np.ndarray) -> np.ndarray:
+        """Variances of a triangulation's value, by number of points."""
+        return np.exp(_basis(n_points, self.center, len(self.coefficients)) @ self.coefficients)
+
+
+def _basis(n_points: np.ndarray, center: float, coefficients: int) -> np.ndarray:
     log_n = np.log(n_points) - center
-    # One size says nothing of the power.
-    return np.column_stack([np.ones_like(log_n), log_n])[:, : min(sizes, 2)]
+    return np.column_stack([log_n**k for k in range(coefficients)])

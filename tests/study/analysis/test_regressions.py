@@ -14,7 +14,7 @@ from study.statistics.groups import Groups
 from study.statistics.models import SATURATING
 from study.statistics.power_family import PowerFamily
 from study.statistics.size_means import SizeMeans
-from study.statistics.variance_function import power_law_variances
+from study.statistics.variance_function import smooth_variances
 
 
 @pytest.fixture(scope="module")
@@ -73,7 +73,7 @@ def test_quality_is_statsmodels(study, observed, fitting):
     x, y = observed
     sizes, group = np.unique(x, return_inverse=True)
     groups = Groups(sizes * 1000, tuple(y[group == k] for k in range(len(sizes))))
-    w = 1 / power_law_variances(groups)[group] if fitting == "weighted" else np.ones(len(x))
+    w = 1 / smooth_variances(groups)[group] if fitting == "weighted" else np.ones(len(x))
     fit = WLS(y, np.column_stack([np.ones_like(x), np.log2(x)]), weights=w).fit()
     row = find(study[2], "regressions", model="logarithmic", fitting=fitting).iloc[0]
     assert coefficients(study[2], "logarithmic", fitting) == pytest.approx(fit.params)

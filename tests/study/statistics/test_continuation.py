@@ -6,6 +6,7 @@ import statsmodels.api as sm
 from scipy import optimize, stats
 
 from study.statistics.continuation import (
+    ENOUGH,
     continuation,
     fit_constant,
     fit_power,
@@ -76,6 +77,23 @@ def test_covariance_is_that_of_repeated_draws(clump):
     np.testing.assert_allclose(np.diag(said) / binomial, clump, rtol=0.1)
     scale = np.sqrt(np.outer(np.diag(said), np.diag(said)))
     np.testing.assert_allclose(said / scale, np.eye(4), atol=0.1)  # these paths are independent
+
+
+@pytest.mark.parametrize("triangulations", [ENOUGH - 1, ENOUGH])
+def test_enough_triangulations_have_a_covariance_of_their_own(triangulations):
+    rng = np.random.default_rng(7)
+    rates = law(np.arange(2.0, 8))
+    small = counts_of(rates, 4_000, 30, rng)
+    large = counts_of(rates, 200_000, triangulations, rng, clump=40)
+    measured = continuation([small, large])
+    if triangulations < ENOUGH:
+        assert measured.df == 29 + triangulations - 1
+        return
+    alone = continuation([large])
+    assert measured.df == triangulations - 1
+    assert measured.covariance.tolist() == alone.covariance.tolist()
+    binomial = rates[0] * (1 - rates[0]) / measured.reached[0]
+    assert measured.covariance[0, 0] / binomial > 15  # the small meshes would say 1
 
 
 def test_correlated_rates_are_seen():
@@ -216,14 +234,14 @@ def test_p_is_even_for_constant_rates_and_few_triangulations():
 
 
 def test_each_law_is_rejected_where_the_other_holds():
-    falling = continuation(drawn(law, 1, ((50_000, 20), (200_000, 20)))).sure()
+    falling = continuation(drawn(law, 2, ((50_000, 20), (200_000, 40)))).sure()
     assert fit_constant(falling).log10_p < -10
     assert fit_power(falling).log10_p > -2
 
     def bent(k):
         return law(k) + 0.01 * (k % 2)
 
-    other = continuation(drawn(bent, 1, ((50_000, 20), (200_000, 20)))).sure()
+    other = continuation(drawn(bent, 1, ((50_000, 20), (200_000, 40)))).sure()
     assert fit_power(other).log10_p < -10
 
 

@@ -13,7 +13,7 @@ from study.statistics.fitting import (
 )
 from study.statistics.groups import Groups, NotEnough
 from study.statistics.models import LINEAR_MODELS, SATURATING
-from study.statistics.variance_function import power_law_variances
+from study.statistics.variance_function import smooth_variances
 
 LINEAR, QUADRATIC, LOGISTIC, LOGARITHMIC = LINEAR_MODELS
 SIZES = np.array([10, 20, 40, 80, 160, 320]) * 1000
@@ -41,7 +41,7 @@ def saturation(x):
 def weights_of(groups, transform=lambda y: y):
     """Reciprocal variances, a power of the size, a value a triangulation."""
     changed = Groups(groups.n_points, tuple(transform(values) for values in groups.values))
-    return np.repeat(1 / power_law_variances(changed), groups.counts)
+    return np.repeat(1 / smooth_variances(changed), groups.counts)
 
 
 # Observations

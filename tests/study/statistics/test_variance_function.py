@@ -6,7 +6,7 @@ import statsmodels.api as sm
 
 from study.statistics.groups import Groups, NotEnough
 from study.statistics.size_means import SizeMeans
-from study.statistics.variance_function import power_law_variances
+from study.statistics.variance_function import smooth_variances
 
 SIZES = np.array([10, 20, 50, 100, 500, 2000]) * 1000
 COUNTS = [12, 9, 12, 6, 3, 2]
@@ -28,39 +28,63 @@ def test_variances_are_statsmodels_gamma_regression(seed):
         family=sm.families.Gamma(sm.families.links.Log()),
         var_weights=np.array(COUNTS) - 1,
     )
-    np.testing.assert_allclose(power_law_variances(groups), model.fit(tol=1e-12).mu, rtol=1e-6)
+    np.testing.assert_allclose(smooth_variances(groups), model.fit(tol=1e-12).mu, rtol=1e-6)
+
+
+def curved(bend, count, seed=3):
+    rng = np.random.default_rng(seed)
+    log_n = np.log(SIZES / 100_000)
+    sd = 0.004 * np.exp(-0.45 * log_n + bend * log_n**2)
+    return Groups(SIZES, tuple(rng.normal(3, s, count) for s in sd))
+
+
+@pytest.mark.parametrize(("bend", "count"), [(0.06, 40), (0.0, 40), (0.06, 5)])
+def test_a_curve_is_fitted_where_a_power_does_not_do(bend, count):
+    groups = curved(bend, count)
+    log_n = np.log(SIZES)
+    basis = np.vander(log_n - log_n.mean(), 3)[:, 0 if bend and count > 5 else 1 :]
+    spread = [values.var(ddof=1) for values in groups.values]
+    model = sm.GLM(spread, basis, family=sm.families.Gamma(sm.families.links.Log()))
+    np.testing.assert_allclose(smooth_variances(groups), model.fit(tol=1e-12).mu, rtol=1e-6)
+
+
+def test_four_sizes_have_no_curve():
+    groups = curved(0.3, 40)
+    four = Groups(SIZES[:4], groups.values[:4])
+    ratios = np.diff(np.log(smooth_variances(four))) / np.diff(np.log(SIZES[:4]))
+    np.testing.assert_allclose(ratios, ratios[0])
 
 
 def test_a_group_of_one_has_the_variance_of_its_size():
     groups = made(counts=[12, 9, 12, 6, 3, 1])
     others = Groups(SIZES[:5], groups.values[:5])
-    found = power_law_variances(groups)
-    np.testing.assert_allclose(found[:5], power_law_variances(others))
+    found = smooth_variances(groups)
+    np.testing.assert_allclose(found[:5], smooth_variances(others))
     ratios = np.diff(np.log(found)) / np.diff(np.log(SIZES))
     np.testing.assert_allclose(ratios, ratios[0])
 
 
 def test_the_power_is_recovered():
     groups = made(counts=[400] * 6)
-    np.testing.assert_allclose(power_law_variances(groups), 0.16 * SIZES**-0.9, rtol=0.15)
+    np.testing.assert_allclose(smooth_variances(groups), 0.16 * SIZES**-0.9, rtol=0.15)
 
 
 def test_one_size_has_its_sample_variance():
     values = (np.array([3.0, 3.1, 3.4]), np.array([3.0]))
-    found = power_law_variances(Groups(SIZES[:2], values))
+    found = smooth_variances(Groups(SIZES[:2], values))
     np.testing.assert_allclose(found, values[0].var(ddof=1))
 
 
 def test_no_variance_at_all():
     with pytest.raises(NotEnough, match="no size has two or more differing"):
-        power_law_variances(Groups(SIZES[:2], (np.array([3.0]), np.array([3.0, 3.0]))))
+        smooth_variances(Groups(SIZES[:2], (np.array([3.0]), np.array([3.0, 3.0]))))
 
 
 def test_means_by_size():
     groups = made()
     means = SizeMeans.of(groups)
     assert means.means.tolist() == [values.mean() for values in groups.values]
-    np.testing.assert_allclose(means.standard_errors**2 * COUNTS, power_law_variances(groups))
+    np.testing.assert_allclose(means.standard_errors**2 * COUNTS, smooth_variances(groups))
     assert means.df == sum(COUNTS) - 6
     assert means.x.tolist() == [10, 20, 50, 100, 500, 2000]
     few = means.where(means.n_points > 100_000)
