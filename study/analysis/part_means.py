@@ -101,7 +101,8 @@ COMMON_MEANS = Declaration(
     ),
     note="The means of the distributions weighted by their reciprocal squared standard errors, and "
     "their weighted squares about it; variances are smooth functions of the number of points "
-    f"within each distribution. Rejected at {SIGNIFICANCE}. The interval of the mean supposes that it is one.",
+    f"within each distribution. Rejected at {SIGNIFICANCE}. The interval of the mean supposes that "
+    "it is one.",
 )
 
 

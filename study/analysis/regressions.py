@@ -91,8 +91,8 @@ REGRESSIONS = Declaration(
         Column("left_out_rmse", "Error of left-out groups", "triangles", "g4"),
     ),
     note="One observation a triangulation; weights are reciprocal variances, which are a smooth "
-    "function of the number of points. The logistic model is a straight line for ln(y / (4 - y)), as "
-    "the published coefficients and R squared are; its adjusted R squared, F and p are on that "
+    "function of the number of points. The logistic model is a straight line for ln(y / (4 - y)), "
+    "as the published coefficients and R squared are; its adjusted R squared, F and p are on that "
     "scale. AIC, BIC and both errors are on the scale of y for all models, "
     "and so comparable: AIC and BIC among the fits of the same observations. Weights "
     "count as known variances. Lack of fit compares the model's residuals with the spread "

@@ -33,7 +33,8 @@ class Observations:
     group : (n,) integer ndarray
         Index of its size.
     weighted : bool
-        Whether each is weighted by the reciprocal variance of its group, a smooth function of its size.
+        Whether each is weighted by the reciprocal variance of its group, a smooth function of
+        its size.
     """
 
     x: np.ndarray

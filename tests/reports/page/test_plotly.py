@@ -34,4 +34,37 @@ def test_the_installed_script_has_the_expected_form() -> None:
     quick = plotly.quick(source)
     removed, added = len(source) - len(quick), 2
     assert 150 + added < removed + 2 * added < 600
-    assert zlib.decompress(b64decode(plotly.script())).decode() == quick
+    used = plotly.only_used(quick)
+    assert len(used) < 0.65 * len(quick)
+    assert zlib.decompress(b64decode(plotly.script())).decode() == used
+
+
+HELPERS = (
+    "var M=(e,t)=>()=>{try{return t||e((t={exports:{}}).exports,t),t.exports}catch(r){throw t=0,r}}"
+    ",S=(e,t,r)=>()=>{if(r)throw r[0]},X=(e,t)=>{for(var r in t)d(e,r,t[r])};"
+)
+MODULES = {
+    "a": "var a=M((e,t)=>{var x=b();t.exports=x});",
+    "b": "var b=M(e=>{e.$c=$d()});",
+    "unused": "var unused=M((e,t)=>{t.exports=only()});",
+    "only": "var only=M((e,t)=>{t.exports=3});",
+    "$d": "var $d=M((e,t)=>{t.exports=o.only()});",
+    "mixed": "var mixed=M((e,t)=>{t.exports=1});function f(){}var g=S(()=>{});",
+    "end": "var end=M((e,t)=>{t.exports=a()});return end()",
+}
+
+
+def bundle(version: str = "4.1.1", helpers: str = HELPERS) -> str:
+    return f"/**\n* plotly.js v{version}\n*/\n{helpers}{''.join(MODULES.values())}"
+
+
+def test_modules_that_nothing_asks_for_are_left_out() -> None:
+    used = plotly.only_used(bundle())
+    assert used == bundle().replace(MODULES["unused"], "").replace(MODULES["only"], "")
+
+
+def test_modules_of_another_version_or_bundler_are_all_kept() -> None:
+    for other in (bundle("4.2.0"), bundle(helpers=HELPERS.replace("exports", "module"))):
+        assert plotly.only_used(other) == other
+    without = bundle(helpers=HELPERS.replace("if(r)throw", "if(t)throw"))
+    assert plotly.only_used(without) == without
