@@ -46,8 +46,8 @@ METHODS: dict[str, Method] = {
     for method in (
         Method(
             "incremental",
-            "Incremental",
-            "incremental",
+            "Plain insertion",
+            "plain insertion",
             "inserts the points as they come and never flips an edge",
             incremental,
         ),

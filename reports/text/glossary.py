@@ -72,7 +72,7 @@ TERMS = (
     ),
     Term(
         "plain insertion",
-        r"\b[Pp]lain insertion\b|\bincremental(?= method| triangulation)",
+        r"\b[Pp]lain insertion\b",
         "Triangulation point by point in the given order, without flips: a point inside a triangle "
         "splits it in three, a point outside is joined to every edge of the hull that it sees.",
     ),

@@ -56,11 +56,10 @@ MODEL_SCORES = Declaration(
         Column("standing", "Model"),
     ),
     note="Weighted fits to the means of the sizes; variances are a smooth function of the number "
-    "of points and count as known. A model is fitted to the sizes up to "
-    f"{PUBLISHED_UP_TO:,} points, the paper's range, and predicts the others; where there are "
-    "none, or too few to fit, the largest quarter is predicted from the rest. Chi-squared "
-    "of the prediction has the errors of the means and, with all covariances, those of the fit; both are "
-    "held against F with the "
+    f"of points and count as known. A model is fitted to the sizes up to {PUBLISHED_UP_TO:,} "
+    "points, the paper's range, and predicts the others; where there are none, or too few to fit, "
+    "the largest quarter is predicted from the rest. Chi-squared of the prediction has the errors "
+    "of the means and, with all covariances, those of the fit; both are held against F with the "
     f"degrees of freedom of the pure error. Refuted: one p below {REFUTED_BELOW}. Behind: its "
     f"AIC of the fit to all sizes is more than {CLEAR_AIC:g} above that of a model that is not "
     "refuted. The logistic model's limit of 4 is supposed, and a parabola turns round: these two "

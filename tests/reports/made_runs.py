@@ -15,7 +15,7 @@ DESIGN = design(
     methods=("incremental", "delaunay"), distributions=("uniform",), sizes=(1000, 2000, 4000, 8000),
     repetitions=8,
 )  # fmt: skip
-METHODS = {"incremental": "incremental", "delaunay": "Delaunay"}
+METHODS = {"incremental": "plain insertion", "delaunay": "Delaunay"}
 
 Frame = pd.DataFrame
 

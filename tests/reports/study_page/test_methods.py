@@ -116,7 +116,7 @@ def test_the_page_of_three_methods_opens(open_report: Callable[..., Page], tmp_p
     traces = page.evaluate(
         "document.querySelector('[data-figure=figure-methods]').data.map(trace => trace.name)"
     )
-    assert traces == ["Incremental", "Delaunay", "Swept"] * 2
+    assert traces == ["Plain insertion", "Delaunay", "Swept"] * 2
     heads = (
         page.locator("[data-table='methods']:not(details *)")
         .locator("th[scope=col]")

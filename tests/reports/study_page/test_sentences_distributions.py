@@ -58,9 +58,9 @@ def test_pairs_are_counted(shift, spread, words):
 def test_agreement_is_by_intervals(shift, spread, words):
     said = shifted(shift, spread).prose(PART)
     whole, _, interior = said.partition(" Of their interiors,")
-    assert whole.startswith("Of whole meshes, triangulated by the incremental method, 6 pairs")
+    assert whole.startswith("Of whole meshes, triangulated by the plain insertion method, 6 pairs")
     assert whole.endswith(words)
-    assert interior.startswith(" triangulated by the incremental method, ")
+    assert interior.startswith(" triangulated by the plain insertion method, ")
 
 
 def test_the_largest_difference_is_named():

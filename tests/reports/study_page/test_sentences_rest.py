@@ -37,9 +37,9 @@ def test_methods_on_the_same_points(name):
     ]
     said = page(name).prose("same-points")
     assert (
-        f"On the same 8,000 uniform points the mean LEPP sizes are {means[0]:.4f} (incremental) "
-        f"and {means[1]:.4f} (Delaunay), and the shares p of type C neighbours {shares[0]:.4f} "
-        f"(incremental) and {shares[1]:.4f} (Delaunay)."
+        f"On the same 8,000 uniform points the mean LEPP sizes are {means[0]:.4f} "
+        f"(plain insertion) and {means[1]:.4f} (Delaunay), and the shares p of type "
+        f"C neighbours {shares[0]:.4f} (plain insertion) and {shares[1]:.4f} (Delaunay)."
     ) in said
     if name == "drawn":
         assert shares[1] < 1 / 3 < shares[0]
@@ -54,7 +54,9 @@ def test_premise_of_methods_at_the_limit():
     third = 1 / 3
     assert "above the 1/3" in methods.premise({"incremental": third, "delaunay": 0.4})
     both = methods.premise({"incremental": 0.2, "delaunay": np.nextafter(third, 0)})
-    assert both.startswith("Those of the incremental and Delaunay triangulations are below the 1/3")
+    assert both.startswith(
+        "Those of the plain insertion and Delaunay triangulations are below the 1/3"
+    )
 
 
 def one_grows(results):
@@ -67,15 +69,17 @@ def one_grows(results):
 def test_growth_of_methods():
     said = page_text(drawn(DESIGN, results=one_grows))
     text = said.prose("same-points")
-    assert "With each doubling of the points the mean changes by 0.050 (incremental) and" in text
+    assert (
+        "With each doubling of the points the mean changes by 0.050 (plain insertion) and" in text
+    )
     assert text.endswith("the growth differs.")
     assert page("drawn").prose("same-points").endswith("the growth is not shown to differ.")
     assert said.finding("figure-methods").startswith(
-        "From few points to many, incremental means go from 3.0"
+        "From few points to many, plain insertion means go from 3.0"
     )
     ends = [[v.mean() for v in by_method("drawn", "mean_lepp", n)] for n in (1000, 8000)]
     assert page("drawn").finding("figure-methods") == (
-        f"From few points to many, incremental means go from {ends[0][0]:.4f} at 1,000 to "
+        f"From few points to many, plain insertion means go from {ends[0][0]:.4f} at 1,000 to "
         f"{ends[1][0]:.4f} at 8,000 and Delaunay means go from {ends[0][1]:.4f} at 1,000 to "
         f"{ends[1][1]:.4f} at 8,000."
     )
@@ -388,9 +392,9 @@ def test_methods_are_introduced_the_papers_first():
         page("drawn")
         .prose("same-points")
         .startswith(
-            "The incremental method, the paper's, inserts the points as they come and never flips "
-            "an edge; the Delaunay method makes triangles that are as far from thin as the points "
-            "allow. On the same"
+            "The plain insertion method, the paper's, inserts the points as they come and never "
+            "flips an edge; the Delaunay method makes triangles that are as far from thin as the "
+            "points allow. On the same"
         )
     )
 

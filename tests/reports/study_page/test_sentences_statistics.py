@@ -58,7 +58,7 @@ def test_opening_on_the_spread():
         results = run(name)["results"].query("method == 'incremental'")
         assert (
             "The first step of a refinement, from a random triangle of 8,000 uniform points "
-            "triangulated by the incremental method, follows a path of "
+            "triangulated by the plain insertion method, follows a path of "
             f"{groups(name)[-1].mean():.2f} triangles on average; a refinement repeats it until "
             "the triangle is gone. In 32 triangulations of all sizes, with "
             f"{results['n_triangles'].sum():,} triangles, no path was longer than "
@@ -242,7 +242,7 @@ def test_regions(name):
     size = (results["n_triangles"] / results["n_regions"]).mean()
     said = page(name).prose("region-sizes")
     assert said.startswith(
-        "In incremental triangulations of 8,000 uniform points, "
+        "In plain insertion triangulations of 8,000 uniform points, "
         f"{100 * pairs:.1f} % of the triangles stand in a terminal pair: a refinement that starts "
         "there touches nothing else. The triangles whose paths end at one terminal edge make a "
         f"region of {size:.2f} triangles on average; "

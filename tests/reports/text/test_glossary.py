@@ -21,7 +21,7 @@ def terms_in(text: str) -> list[str]:
         ("the first layer", [("layer", "layer")]),
         ("players and the regional", []),
         ("a type C neighbour, of type B", [("type-c", "type C")]),
-        ("by the incremental method", [("plain-insertion", "incremental")]),
+        ("by the plain insertion method", [("plain-insertion", "plain insertion")]),
         ("an incremental change", []),
         ("Plain insertion, not Delaunay",
             [("plain-insertion", "Plain insertion"), ("delaunay", "Delaunay")]),
