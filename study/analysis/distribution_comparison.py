@@ -15,6 +15,7 @@ from study.statistics.multiple_testing import holm
 from study.statistics.tails import log10_t_tail
 from study.statistics.thresholds import EQUIVALENT_WITHIN, LEVEL, SIGNIFICANCE
 from study.statistics.verdicts import NO, UNDECIDED, YES
+from study.text.notation import SPACE
 
 #: Verdicts on the means of two distributions. The first two are equivalent: the difference is
 #: shown to be small, not only not shown to be there.
@@ -22,7 +23,7 @@ ALIKE, LITTLE, DIFFER = "alike", "differ little", "differ"
 VERDICTS = (ALIKE, LITTLE, DIFFER, UNDECIDED)
 
 #: The margin of equivalence as a table shows it.
-MARGIN = f"{100 * EQUIVALENT_WITHIN:g} %"
+MARGIN = f"{100 * EQUIVALENT_WITHIN:g}{SPACE}%"
 
 DISTRIBUTIONS_COMPARED = Declaration(
     "distributions",

@@ -88,7 +88,7 @@ def _scoreboard(evidence: Evidence) -> Subsection:
                 ),
                 follows=("method",),
             ),
-            TableBlock(OVERALL, "The independent numbers together", follows=("method",)),
+            *_together(evidence),
             TableBlock(
                 REPRODUCTION,
                 "Every published number beside ours",
@@ -110,6 +110,13 @@ def _scoreboard(evidence: Evidence) -> Subsection:
             ),
         ),
     )
+
+
+def _together(evidence: Evidence) -> tuple[TableBlock, ...]:
+    """Nothing where the run has no published group."""
+    if evidence.rows(OVERALL).empty:
+        return ()
+    return (TableBlock(OVERALL, "The independent numbers together", follows=("method",)),)
 
 
 def _table_4(evidence: Evidence) -> Subsection:

@@ -81,13 +81,13 @@ def test_contents_unfold_the_section_that_is_read(open_report: Open) -> None:
     assert not page.get_by_role("navigation").locator("a[href='#projections']").is_visible()
     part.click()
     assert is_reached(page, "steps")
-    page.get_by_role("button", name="Parts of: The regressions").press("Enter")
+    page.get_by_role("button", name="Parts of: Which model survives").press("Enter")
     assert page.get_by_role("navigation").locator("a[href='#projections']").is_visible()
 
 
 def test_contents_unfold_on_a_narrow_window(open_report: Open) -> None:
     page = open_report(viewport={"width": 390, "height": 900})
-    button = page.get_by_role("button", name="Parts of: The regressions")
+    button = page.get_by_role("button", name="Parts of: Which model survives")
     link = page.get_by_role("navigation").locator("a[href='#projections']")
     assert not link.is_visible()
     button.click()
