@@ -67,18 +67,19 @@ class _Fit:
         df = groups.counts - 1.0
         center = float(np.average(np.log(groups.n_points), weights=df))
         basis = _basis(groups.n_points, center, min(coefficients, len(groups)))
-        root = np.sqrt(df)[:, None]
-        # Of ln s^2 first, which is near enough to start from.
-        target = np.log(groups.variances)
-        log_variance = np.zeros_like(target)
+        root = np.sqrt(df)
+        fitted = np.linalg.lstsq(
+            basis * root[:, None], np.log(groups.variances) * root, rcond=None
+        )[0]
         for _ in range(_MOST_STEPS):
-            fitted = np.linalg.lstsq(basis * root, target * root[:, 0], rcond=None)[0]
-            before, log_variance = log_variance, basis @ fitted
-            if np.abs(log_variance - before).max() < _CLOSE:
+            excess = groups.variances / np.exp(basis @ fitted) - 1
+            step = np.linalg.lstsq(basis * root[:, None], excess * root, rcond=None)[0]
+            # Bounded, so that a bad start cannot throw the fit far off.
+            length = np.abs(basis @ step).max()
+            fitted = fitted + step / max(1.0, length)
+            if length < _CLOSE:
                 break
-            # A step is bounded, so that a bad start cannot throw the fit far off.
-            excess = np.minimum(groups.variances / np.exp(log_variance) - 1, 3.0)
-            target = log_variance + excess
+        log_variance = basis @ fitted
         ratio = groups.variances / np.exp(log_variance)
         return cls(center, fitted, float(df @ (ratio - 1 - np.log(ratio))))
 

@@ -55,6 +55,17 @@ def test_four_sizes_have_no_curve():
     np.testing.assert_allclose(ratios, ratios[0])
 
 
+def test_a_variance_far_above_the_others_counts_in_full():
+    rng = np.random.default_rng(8)
+    values = [rng.normal(3, 0.01, 5) for _ in SIZES]
+    values[2] = 3 + 30 * (values[2] - 3)
+    groups = Groups(SIZES, tuple(values))
+    spread = [one.var(ddof=1) for one in values]
+    basis = sm.add_constant(np.log(SIZES))
+    model = sm.GLM(spread, basis, family=sm.families.Gamma(sm.families.links.Log()))
+    np.testing.assert_allclose(smooth_variances(groups), model.fit(tol=1e-12).mu, rtol=1e-6)
+
+
 def test_a_group_of_one_has_the_variance_of_its_size():
     groups = made(counts=[12, 9, 12, 6, 3, 1])
     others = Groups(SIZES[:5], groups.values[:5])
