@@ -116,7 +116,12 @@ class Figures {
     this.busy = true;
     await this.run();
     for (let host = this.next(); host; host = this.next()) {
-      this.draw(host);
+      try {
+        this.draw(host);
+      } catch (error) { // one plot that cannot be drawn does not keep the others from it
+        this.drawn.set(host, this.stateOf(host));
+        reportError(error);
+      }
       await nextTask();
     }
     this.busy = false;

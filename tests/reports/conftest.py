@@ -95,8 +95,11 @@ def draw_all(page: Page) -> None:
         """async () => {
             for (const host of document.querySelectorAll('[data-figure]')) {
                 if (host.hidden) continue;
-                host.scrollIntoView({ block: 'center', behavior: 'instant' });
+                const late = performance.now() + 30000;
                 while (!host.querySelector('.main-svg')) {
+                    if (performance.now() > late) throw new Error(`no plot: ${host.id}`);
+                    // Again and again: what is filled above it moves it.
+                    host.scrollIntoView({ block: 'center', behavior: 'instant' });
                     await new Promise(resolve => setTimeout(resolve, 20));
                 }
             }
