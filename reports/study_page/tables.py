@@ -123,7 +123,7 @@ _STATEMENTS_COMPARED = Declaration(
 def statements_compared_by(methods: Sequence[str]) -> Declaration:
     """Declare the table of the paper's statements with a column a method."""
     verdicts = [Column(name, METHODS[name].title, "", "verdict") for name in methods]
-    return replace(_STATEMENTS_COMPARED, columns=(*_STATEMENT, *verdicts))
+    return replace(_STATEMENTS_COMPARED, columns=(*_STATEMENT[:-1], *verdicts, _STATEMENT[-1]))
 
 
 def report_tables(
@@ -182,7 +182,8 @@ def statements_compared(tables: Tables, methods: tuple[str, ...]) -> Table:
     rows = statements.pivot(index=shared, columns="method", values="holds")
     order = statements[shared].drop_duplicates()
     frame = order.join(rows[list(methods)], on=shared).reset_index(drop=True)
-    return statements_compared_by(methods).of_frame(frame)
+    declared = statements_compared_by(methods)
+    return declared.of_frame(frame[declared.column_names])
 
 
 def sampled_points(design: Design) -> Table:

@@ -28,11 +28,11 @@ METHODS_COMPARED = Declaration(
         _FIRST,
         _SECOND,
         Column("pairs", "Point sets", "", "int"),
-        Column("mean_1", "First mean", "", "fixed4"),
-        Column("mean_2", "Second mean", "", "fixed4"),
-        Column("difference", "Second - first", "", "fixed4"),
-        Column("low", f"{LEVEL} from", "", "fixed4"),
-        Column("high", f"{LEVEL} to", "", "fixed4"),
+        Column("mean_1", "First mean", "", "g5"),
+        Column("mean_2", "Second mean", "", "g5"),
+        Column("difference", "Second - first", "", "g4"),
+        Column("low", f"{LEVEL} from", "", "g4"),
+        Column("high", f"{LEVEL} to", "", "g4"),
         Column("correlation", "Correlation of the pairs", "", "fixed2"),
         Column("t", "t", "", "fixed1"),
         Column("df", "Df", "", "int"),
@@ -41,8 +41,8 @@ METHODS_COMPARED = Declaration(
     ),
     note="Every method triangulates the same points: differences are taken point set by point set, "
     "with the paired t interval and test of no difference. "
-    "There are {tests} tests in this table; multiply p by that number (add its log10) for "
-    "Bonferroni's correction.",
+    "There are {tests} tests in this table; multiply p by that number for Bonferroni's "
+    "correction.",
 )
 
 GROWTH = Declaration(

@@ -122,19 +122,26 @@ PATH_LAWS = Declaration(
         Column("shift_error", "± of b", "", "g2"),
         Column("exponent", "a", "", "fixed4"),
         Column("exponent_error", "± of a", "", "g2"),
-        Column("chi_squared", "χ²", "", "g3"),
-        Column("df", "Df", "", "int"),
+        Column("f", "F", "", "g3"),
+        Column("df", "Df, law", "", "int"),
+        Column("df_residual", "Df, covariance", "", "int"),
         Column("log10_p", "log10 p", "", "log10p"),
         Column("verdict", "The law"),
         Column("paths", "Paths that take a step", "triangles", "int"),
         Column("longest_expected", "Longest expected", "triangles", "int"),
         Column("longest_seen", "Longest seen", "triangles", "int"),
     ),
-    note="Of the rates of the table before, from k = 2 on as far as their intervals "
-    f"are narrower than {ROUGH_RATE:g}. Paths run through the same triangles, so that "
+    note="Of the chances to go on at the largest number of points with "
+    f"{ENOUGH} triangulations or more, as of fewer their covariance is not known. Fitted are those "
+    f"from k = 2 on whose intervals are narrower than {ROUGH_RATE:g}, but no more sizes than a "
+    "third "
+    "of the degrees of freedom of the covariance, which is too rough to be inverted for more. "
+    "Paths "
+    "run through the same triangles, so that "
     "neighbouring rates are correlated: the laws are fitted to the rates by generalised least "
-    "squares with their covariance, ± are standard errors, and p allows for the covariance being "
-    f"estimated. A law is rejected where p is below {SIGNIFICANCE}. Where a constant is rejected, "
+    "squares with their covariance, ± are standard errors. The weighted sum of squares is given as "
+    f"an F, as the covariance is estimated. A law is rejected where p is below {SIGNIFICANCE}. "
+    "Where a constant is rejected, "
     "none is given, and the falling law is fitted. The longest path expected is the size of which "
     "the law, beyond the sizes that it is fitted to, leaves fewer than one longer path; long paths "
     "come in bundles that share most of their triangles, so that the longest one seen scatters "
@@ -267,8 +274,9 @@ def _laws(measured: Continuation, fits: dict[str, LawFit]) -> Iterator[Row]:
         row = common | {
             "law": law,
             "upto_size": fit.sizes[-1],
-            "chi_squared": fit.chi_squared,
+            "f": fit.f,
             "df": fit.df,
+            "df_residual": fit.df_residual,
             "log10_p": fit.log10_p,
             "verdict": rejected(_rejected(fit)),
         }

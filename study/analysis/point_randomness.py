@@ -47,7 +47,6 @@ RANDOMNESS = Declaration(
     f"{SIGNIFICANCE} speaks against them. "
     "Its interval is Clopper and Pearson's, its p the exact binomial test's; one interval in "
     "twenty misses by chance, so the verdict is after Holm's correction over the rows. "
-    "Rejected after Holm counts single point sets, corrected for the tests of the row. "
     "Uniformity is a Kolmogorov-Smirnov test of the p-values; those of the runs test are "
     "discrete, coarsely so for small sets. x and y of the bivariate normal distribution are "
     "correlated, and so are, weakly, their tests. Point sets count once, whatever "

@@ -12,7 +12,7 @@ from study.statistics.tails import log10_chi2_tail, log10_f_tail
 from study.statistics.thresholds import LEVEL
 
 CLASSICAL, WELCH, KRUSKAL_WALLIS = "classical", "Welch", "Kruskal-Wallis"
-ETA_SQUARED, OMEGA_SQUARED, EPSILON_SQUARED = "eta squared", "omega squared", "epsilon squared"
+ETA_SQUARED, OMEGA_SQUARED, EPSILON_SQUARED = "η²", "ω²", "ε²"
 
 ANOVA = Declaration(
     "anova",
@@ -32,13 +32,13 @@ ANOVA = Declaration(
         Column("effect_high", f"{LEVEL} to", "", "fixed3"),
     ),
     note="H0: all groups have the same mean LEPP size. The classical test supposes equal "
-    "variances, Welch's does not, Kruskal-Wallis compares ranks (p from its chi-squared limit). "
+    "variances, Welch's does not, Kruskal-Wallis compares ranks (p from its χ² limit). "
     "Effect sizes are shares of the variance between triangulations that the number of points "
     "accounts for: they belong to the design, since other sizes, or more of some, give others; "
-    "eta squared is the sample's, omega squared corrects its bias; their intervals come from "
+    "η² is the sample's, ω² corrects its bias; their intervals come from "
     "the noncentral F distribution and are those of the population's share, for which the "
-    "sample's eta squared is a little high. "
-    "There is no such interval for epsilon squared.",
+    "sample's η² is a little high. "
+    "There is no such interval for ε².",
 )
 
 

@@ -41,7 +41,7 @@ CONSISTENCY = Declaration(
     note="Table 5, the uniform column of Table 6 and all of Table 7 follow from the 20 means and "
     "standard deviations of Table 4, each of which is rounded. At least and at most are proven "
     "bounds of what all data give that round to Table 4; exact for the coefficients and the t "
-    "tests, and to the second order in the rounding for F and what follows from it, R squared and "
+    "tests, and to the second order in the rounding for F and what follows from it, R² and "
     "p. The logistic model is fitted to logits, whose spread Table 4 fixes only roughly: its "
     "bounds hold for any data, and are wider. Attained is what made-up data reach that round to "
     "Table 4. "

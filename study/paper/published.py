@@ -241,7 +241,7 @@ def fits() -> list[tuple[str, Number, Number]]:
     return [
         (
             model,
-            _of_table_7(f"{model}, adjusted R squared", found[model]["adj_r2"], 2),
+            _of_table_7(f"{model}, adjusted R²", found[model]["adj_r2"], 2),
             _of_table_7(f"{model}, p", found[model]["p"], 2, scientific=True),
         )
         for model in ("linear", "quadratic", "logistic", "logarithmic")

@@ -74,7 +74,7 @@ REPRODUCTION = Declaration(
     f"deviations there; {BY_CONSTRUCTION}: every run of the design gives "
     f"it; {RANDOM_DRAW}: no other run can repeat it; {SAME_TEST}: its test is counted by the "
     "p-value. Levene's F is counted, though the standard deviations of Table 4 decide most of it. "
-    "Errors of F, R squared and coefficients are of a parametric bootstrap, in which every group "
+    "Errors of F, R² and coefficients are of a parametric bootstrap, in which every group "
     "has a mean and standard deviation of its own. The published numbers are of triangulations by "
     f"insertion without flips, the method {REFERENCE_METHOD}; for any "
     "other method the table shows how far it is from them, not an attempt to reproduce them.",
@@ -108,7 +108,7 @@ OVERALL = Declaration(
         Column("numbers", "Numbers", "", "int"),
         Column("beyond", f"Beyond {AGREES_UP_TO:g} standard errors", "", "int"),
         Column("expected_beyond", "Expected by chance", "", "fixed1"),
-        Column("chi2", "Chi-squared", "", "fixed1"),
+        Column("chi2", "χ²", "", "fixed1"),
         Column("df", "Df", "", "int"),
         Column("p", "p of more", "", "p"),
         Column("log10_p", "log10 p", "", "log10p"),
@@ -118,13 +118,14 @@ OVERALL = Declaration(
         Column("furthest", "Largest difference", "standard errors", "fixed2"),
         Column("verdict", "Verdict", "", "verdict"),
     ),
-    note="Chi-squared is the sum of the squared differences, in standard errors; p of more is the "
+    note="χ² is the sum of the squared differences, in standard errors; p of more is the "
     "chance of a larger sum, p of less of a smaller. The common shift is the sum of the "
     "differences over the root of their number (Stouffer), normal if there is none; its p counts "
     "both directions. All independent numbers have no shift together, as they are of different "
     "kinds. Verdicts: differs if p of more or of the shift is below "
-    f"{TABLE_DIFFERS_BELOW}, else {TOO_CLOSE} if p of less is. Numbers of one run are not quite "
-    "independent of one another: Levene's F hangs on the standard deviations.",
+    f"{TABLE_DIFFERS_BELOW}, else {TOO_CLOSE} if p of less is. Independent are the numbers "
+    "that are not derived from another printed one; those of one run are not quite without a bond: "
+    "Levene's F hangs on the standard deviations.",
 )
 
 _NOT_RUN = Judgement(np.nan, np.nan, np.nan, NOT_RUN, "the run has not enough of this group")

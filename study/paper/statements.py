@@ -12,7 +12,14 @@ from scipy import stats
 from lepp.theory import LEAST_P_TEXT
 from study.analysis.bound_tests import BOUNDS, LOWER_BOUND, UPPER_BOUND
 from study.analysis.building import Study, rows_of
-from study.analysis.distribution_comparison import ALIKE, ANALOGOUS, MARGIN
+from study.analysis.distribution_comparison import (
+    ALIKE,
+    ANALOGOUS,
+    DIFFER,
+    LITTLE,
+    MARGIN,
+    VERDICTS,
+)
 from study.analysis.group_assumptions import CENTERS, LEVENE, SHAPIRO
 from study.analysis.group_summaries import GROUPS
 from study.analysis.limits import FEW, LIMIT_VERDICTS
@@ -32,17 +39,21 @@ from study.analysis.theorems import LEAST_MEAN, MEAN, MOST_MEAN, MOST_SD, THEORE
 from study.analysis.variance_analysis import ANOVA, CLASSICAL, ETA_SQUARED
 from study.statistics.groups import NotEnough
 from study.statistics.models import LINEAR_MODELS, LOGARITHMIC
-from study.statistics.thresholds import ROUGH_RATE, SIGNIFICANCE
+from study.statistics.thresholds import LEVEL, ROUGH_RATE, SIGNIFICANCE
 from study.statistics.verdicts import (
     NO,
     NOT_REJECTED,
     NOT_SHOWN,
     REJECTED,
+    UNDECIDED,
     YES,
     all_of,
     yes,
 )
-from study.text.numbers import listed, show
+from study.text.numbers import listed, p_is, show
+
+#: What the paper's logistic regression tends to.
+LOGISTIC_LIMIT = 4.0
 
 #: Verdict on a statement that the run does not suffice for.
 NOT_TESTED = "not tested"
@@ -65,8 +76,9 @@ STATEMENTS = Declaration(
     f"{SIGNIFICANCE}. “{NOT_REJECTED}” is said of what a test could have refuted and did not, "
     f"“{NOT_SHOWN}” of what it could have shown and did not: neither is evidence. Growth and "
     "decline are Spearman's rank correlation of the groups with the number of points. The cost is "
-    "constant if it has a bound; whether the mean also has a limit is decided by which models of "
-    "growth survive.",
+    "constant if it has a bound. The logistic regression's limit is held against that of the "
+    "models of "
+    "growth that survive, and is refuted if their interval excludes it.",
 )
 
 
@@ -97,12 +109,10 @@ def _constant_rate(of: _Tables) -> Judged:
     last = rates.select(lepp_size=test["upto_size"]).first
     rejected = test["verdict"] == REJECTED
     return NO if rejected else NOT_REJECTED, (
-        f"The chance to go on is {show(first['rate'], 'fixed4')} after {first['lepp_size']} "
-        f"triangles and {show(last['rate'], 'fixed4')} after {last['lepp_size']} ({test.name}, "
+        f"The chance to go on is {show(first['rate'], 'percent1')} after {first['lepp_size']} "
+        f"triangles and {show(last['rate'], 'percent1')} after {last['lepp_size']} ({test.name}, "
         f"{test['n_points']:,} points). One chance for all: "
-        f"χ² = {show(test['chi_squared'], 'g3')} on {test['df']} degrees of freedom, "
-        f"p = {show(test['log10_p'], 'log10p')}"
-        f"{': no p fits' if rejected else ''}. {_moments(of)}"
+        f"{p_is(test['log10_p'])}. {_moments(of)}"
     )
 
 
@@ -135,14 +145,15 @@ def _off(statistic: str, relative: float) -> str:
 def _premise(of: _Tables) -> Judged:
     rows = of.rows(THEOREM_2)
     p = rows["p_type_c"]
-    seen = f"p at the first step from {show(p.min(), 'fixed4')} to {show(p.max(), 'fixed4')}; "
+    seen = f"share p of type C from {show(p.min(), 'fixed4')} to {show(p.max(), 'fixed4')}; "
     known = rows.frame.dropna(subset="lowest_rate")
     if known.empty:
         return all_of(rows["premise"]), f"{seen}no step is known to within {ROUGH_RATE:g}"
     least = known.loc[known["lowest_rate"].idxmin()]
     return all_of(rows["premise"]), (
-        f"{seen}the least chance at any step is {show(least['lowest_rate'], 'fixed4')}, at size "
-        f"{least['lowest_size']} ({least['n_points']:,} points)"
+        f"{seen}the least chance to end at any step, at a neighbour of type C or at the boundary, "
+        f"is {show(least['lowest_rate'], 'fixed4')}, at size {least['lowest_size']} "
+        f"({least['n_points']:,} points)"
     )
 
 
@@ -165,7 +176,7 @@ def _t_tests(of: _Tables) -> Judged:
     holds = NO if beyond.any() else YES if rejected == len(rows) else NOT_SHOWN
     return holds, (
         f"{rejected} of {len(rows)} tests significant after Bonferroni's correction, "
-        f"p at most {show(rows['log10_p_bonferroni'].max(), 'log10p')}; above {LOWER_BOUND} says "
+        f"the largest {p_is(rows['log10_p_bonferroni'].max())}; above {LOWER_BOUND} says "
         "nothing, since a path inside has two triangles by definition"
     )
 
@@ -176,7 +187,7 @@ def _f_test(declared: Declaration, statistic: str, **where: str) -> Callable[[_T
         return YES if row["p"] < SIGNIFICANCE else NOT_SHOWN, (
             f"F = {show(row[statistic], 'fixed2')} ({show(row['df_group'], 'int')} and "
             f"{show(row['df_residual'], 'int')} degrees of freedom), "
-            f"p = {show(row['log10_p'], 'log10p')}"
+            f"{p_is(row['log10_p'])}"
         )
 
     return judge
@@ -234,7 +245,8 @@ def _bounded(of: _Tables) -> Judged:
     rows = of.rows(THEOREM_2)
     highest = rows["highest_mean"].max()
     return yes(highest <= MOST_MEAN), (
-        f"at most {highest:.4f} in {rows['triangulations'].sum():,} triangulations"
+        f"our criterion, a mean of at most {MOST_MEAN:g}: it is at most {highest:.4f} in "
+        f"{rows['triangulations'].sum():,} triangulations"
     )
 
 
@@ -242,17 +254,40 @@ def _analogous(of: _Tables) -> Judged:
     row = of.rows(ANALOGOUS, part=WHOLE).first
     other = row["furthest_from"].replace("_", " ")
     return row["equivalent"], (
-        f"{row['comparisons']} comparisons with the others: {row[ALIKE]} {ALIKE}; the largest "
-        f"difference is {100 * row['furthest']:.2f} %, from the {other} distribution at "
+        f"our criterion, means that differ by less than {MARGIN}: of {row['comparisons']} "
+        f"comparisons with the others, {listed(_compared(row))}; the largest difference is "
+        f"{100 * row['furthest']:.2f} %, from the {other} distribution at "
         f"{row['furthest_n']:,} points"
     )
 
 
-def _has_limit(of: _Tables) -> Judged:
+def _compared(row: pd.Series) -> list[str]:
+    """Count the comparisons of a distribution with the others, by what they show."""
+    counts = {verdict: row[verdict.replace(" ", "_")] for verdict in VERDICTS}
+    return [
+        f"{counts[verdict]} {'shows' if counts[verdict] == 1 else 'show'} {words}"
+        for verdict, words in (
+            (ALIKE, "no difference"),
+            (LITTLE, f"one, of less than {MARGIN}"),
+            (DIFFER, f"one that may be {MARGIN} or more"),
+            (UNDECIDED, f"none, but leave room for {MARGIN} or more"),
+        )
+        if counts[verdict]
+    ]
+
+
+def _limit(of: _Tables) -> Judged:
     row = of.rows(LIMIT_VERDICTS, part=WHOLE).first
     if row["reason"] == FEW:
         raise NotEnough(FEW)
-    return row["has_limit"], row["reason"]
+    if row["has_limit"] != YES or pd.isna(row["limit"]):
+        return UNDECIDED, f"whether the mean has a limit: {row['has_limit']} ({row['reason']})"
+    low, high = row["limit_low"], row["limit_high"]
+    excluded = high < LOGISTIC_LIMIT or low > LOGISTIC_LIMIT
+    return NO if excluded else NOT_REJECTED, (
+        f"the mean has a limit ({row['reason']}): {show(row['limit'], 'fixed4')} "
+        f"({LEVEL} interval {show(low, 'fixed4')} to {show(high, 'fixed4')})"
+    )
 
 
 #: Source, statement, and how it is answered from the tables of one method and distribution.
@@ -308,23 +343,23 @@ _ASKED: tuple[tuple[str, str, Callable[[_Tables], Judged]], ...] = (
     ),
     (
         "Table 7",
-        "Of the four models the logarithmic one has the highest adjusted R squared",
+        "Of the four models the logarithmic one has the highest adjusted R²",
         _logarithmic_best,
     ),
     (
         "Section 4",
-        f"Results are analogous for all distributions: their means differ by less than {MARGIN}",
+        "Results and conclusions are analogous for all the distributions",
         _analogous,
     ),
     (
         "Conclusions",
-        f"The cost of a LEPP is constant: its mean size is at most {MOST_MEAN:g}",
+        "The cost of a LEPP is constant",
         _bounded,
     ),
     (
-        "Conclusions",
-        "The mean LEPP size has a limit as the number of points grows",
-        _has_limit,
+        "Table 7",
+        f"The logistic regression has an asymptotic limit equal to {LOGISTIC_LIMIT:g}",
+        _limit,
     ),
 )
 

@@ -183,10 +183,12 @@ class LawFit:
         Takes sizes and returns the rates of the law.
     chi_squared : float
         Weighted sum of the squared residuals.
-    df : int
-        Sizes less coefficients.
+    f : float
+        The sum in the scale of an F distribution, as the covariance is estimated.
+    df, df_residual : int
+        Its degrees of freedom: sizes less coefficients, and what the covariance has beyond those.
     log10_p : float
-        Decimal logarithm of the chance of as large a sum, if the law is true.
+        Decimal logarithm of the chance of as large an F, if the law is true.
     """
 
     sizes: np.ndarray
@@ -194,7 +196,9 @@ class LawFit:
     standard_errors: np.ndarray
     curve: Curve
     chi_squared: float
+    f: float
     df: int
+    df_residual: int
     log10_p: float
 
 
@@ -321,6 +325,7 @@ def _law_fit(
     """
     m, q = measured.df, len(residuals) - slopes.shape[1]
     chi_squared = float(residuals @ residuals)
+    f = chi_squared * (m - q + 1) / (m * q)
     inflation = m * (m - 1) / ((m - q) * (m - q - 1))
     covariance = jacobian @ np.linalg.inv(slopes.T @ slopes) @ jacobian.T * inflation
     return LawFit(
@@ -329,8 +334,10 @@ def _law_fit(
         standard_errors=np.sqrt(np.diag(covariance)),
         curve=curve,
         chi_squared=chi_squared,
+        f=f,
         df=q,
-        log10_p=log10_f_tail(chi_squared * (m - q + 1) / (m * q), q, m - q + 1),
+        df_residual=m - q + 1,
+        log10_p=log10_f_tail(f, q, m - q + 1),
     )
 
 

@@ -3,11 +3,13 @@
 import math
 import re
 
+from lepp import METHODS
 from study.text.notation import MINUS, SPACE, TIMES, typeset
 from study.text.notation import ten_to as ten_to  # part of how numbers are written
 
 _DASH = "–"
-_HUGE = 1e7  # from here on, decimals say nothing
+_HUGE = 1e10  # from here on, decimals say nothing
+_LEAST_POWER = -307  # of p-values: what is less is only said to be so
 
 
 def show(value: object, how: str) -> str:
@@ -32,7 +34,7 @@ def show(value: object, how: str) -> str:
     if how == "verdict":
         return str(value)
     if how == "name":
-        return str(value).replace("_", " ")
+        return METHODS[str(value)].word if value in METHODS else str(value).replace("_", " ")
     number = float(value)  # type: ignore[arg-type]  # a numeric format promises a number
     kind, digits = _split(how)
     if not math.isfinite(number):
@@ -79,14 +81,28 @@ def percent(share: float, digits: int) -> str:
 
 def p_value(p: float) -> str:
     """Write a p-value: four decimals, and a power of ten where those would show only zeros."""
-    if p == 0:
-        return f"<{SPACE}{ten_to(-307)}"
-    return f"{p:.4f}" if p >= 0.001 else significant_power(math.log10(p))
+    return p_value_from_log10(math.log10(p) if p > 0 else -math.inf)
 
 
 def p_value_from_log10(log10_p: float) -> str:
     """Write a p-value given by its decimal logarithm, which may be far below a double's range."""
+    if log10_p < _LEAST_POWER:
+        return f"<{SPACE}{ten_to(_LEAST_POWER)}"
     return f"{10**log10_p:.4f}" if log10_p >= -3 else significant_power(log10_p)
+
+
+def p_is(log10_p: float) -> str:
+    """Write what a p-value given by its decimal logarithm is: ``p = 0.0123``, ``p < 10⁻³⁰⁷``."""
+    shown = p_value_from_log10(log10_p)
+    return f"p{SPACE}{shown}" if shown.startswith("<") else f"p{SPACE}={SPACE}{shown}"
+
+
+def f_test(f: float, df: float, df_residual: float) -> str:
+    """Write an F statistic with its degrees of freedom."""
+    return (
+        f"F{SPACE}={SPACE}{significant(f, 3)} on {show(df, 'df')} and {show(df_residual, 'df')} "
+        "degrees of freedom"
+    )
 
 
 def significant_power(log10_value: float) -> str:

@@ -57,7 +57,8 @@ from study.paper.reproduction import (
 from study.paper.runs_lattice import RUNS_LATTICE
 from study.statistics.thresholds import AGREES_UP_TO, CLOSE_UP_TO, TABLE_DIFFERS_BELOW
 from study.statistics.verdicts import UNDECIDED, YES
-from study.text.numbers import count, listed, none_or, show
+from study.text.notation import typeset
+from study.text.numbers import count, listed, none_or, p_is, show
 
 
 def section(evidence: Evidence) -> Section:
@@ -116,7 +117,12 @@ def _together(evidence: Evidence) -> tuple[TableBlock, ...]:
     """Nothing where the run has no published group."""
     if evidence.rows(OVERALL).empty:
         return ()
-    return (TableBlock(OVERALL, "The independent numbers together", follows=("method",)),)
+    columns = tuple(name for name in OVERALL.column_names if name != "p")
+    return (
+        TableBlock(
+            OVERALL, "The independent numbers together", columns=columns, follows=("method",)
+        ),
+    )
 
 
 def _table_4(evidence: Evidence) -> Subsection:
@@ -207,7 +213,8 @@ def _independent(evidence: Evidence, view: View, total: pd.Series) -> Iterator[s
         return
     agrees, close, differs = (int(total[independent_column(v)]) for v in JUDGED)
     yield (
-        f"{total['independent']} of them are independent of one another and can be held against "
+        f"{total['independent']} of them are not derived from another printed number, and can be "
+        "held against "
         f"ours by their standard errors: {agrees} within {AGREES_UP_TO:g} (agreement), {close} "
         f"within {CLOSE_UP_TO:g} (close) and {differs} beyond (different)."
     )
@@ -226,7 +233,7 @@ def _independent(evidence: Evidence, view: View, total: pd.Series) -> Iterator[s
     }[together["verdict"]]
     yield (
         f"All together they {words} (χ² = {show(together['chi2'], 'fixed1')} on {together['df']} "
-        f"degrees of freedom; p\u00a0=\u00a0{show(together['log10_p'], 'log10p')} for more, "
+        f"degrees of freedom; {p_is(together['log10_p'])} for more, "
         f"{show(together['p_less'], 'p')} for less)."
     )
     shifts = evidence.rows(OVERALL, method=view.method).frame.dropna(subset=["shift"])
@@ -254,7 +261,8 @@ def _shifts(rows: pd.DataFrame) -> str:
 
 def _not_counted(evidence: Evidence, view: View, total: pd.Series) -> Iterator[str]:
     rows = evidence.rows(REPRODUCTION, method=view.method)
-    standing = rows["standing"].value_counts()
+    unseen = rows["verdict"].isin([NOT_COMPARABLE, NOT_RUN])
+    standing = rows["standing"][~unseen].value_counts()
     each = [
         f"{standing[name]} {words}"
         for name, words in (
@@ -265,21 +273,26 @@ def _not_counted(evidence: Evidence, view: View, total: pd.Series) -> Iterator[s
         )
         if name in standing
     ]
-    yield f"Not counted are {listed(each)}."
-    draws = rows.select(standing=RANDOM_DRAW)["verdict"].value_counts()
-    odd = int(draws.get(IMPLAUSIBLE, 0))
-    if odd or PLAUSIBLE in draws:
-        yield (
-            "All draws are plausible beside ours."
-            if not odd
-            else f"{count(odd, 'draw')} {'is' if odd == 1 else 'are'} not plausible beside ours."
+    each += [
+        f"{total[verdict_column(name)]} {words}"
+        for name, words in (
+            (NOT_COMPARABLE, "that cannot be compared with this design"),
+            (NOT_RUN, "that belong to groups which this run does not have"),
         )
-    for name, words in (
-        (NOT_COMPARABLE, "cannot be compared with this design"),
-        (NOT_RUN, "belong to groups that this run does not have"),
-    ):
-        if total[verdict_column(name)]:
-            yield f"{total[verdict_column(name)]} of all numbers {words}."
+        if total[verdict_column(name)]
+    ]
+    others = total["numbers"] - total["independent"]
+    if each:
+        yield f"Not counted are the other {others}: {listed(each)}."
+    draws = rows.select(standing=RANDOM_DRAW)["verdict"].value_counts()
+    odd, plausible = int(draws.get(IMPLAUSIBLE, 0)), int(draws.get(PLAUSIBLE, 0))
+    if odd:
+        yield (
+            f"Of {count(odd + plausible, 'draw')} that can be held against ours, {odd} "
+            f"{'is' if odd == 1 else 'are'} not plausible."
+        )
+    elif plausible:
+        yield f"All {count(plausible, 'draw')} that can be held against ours are plausible."
 
 
 def consistent(evidence: Evidence) -> str:
@@ -294,7 +307,8 @@ def consistent(evidence: Evidence) -> str:
         "range that the rounding of Table 4 leaves open."
     ]
     wrong = [
-        f"{row.printed} ({row.quantity}), where Table 4 gives {show(row.low, 'g4')} to "
+        f"{typeset(row.printed)} ({typeset(row.quantity)}), where Table 4 gives "
+        f"{show(row.low, 'g4')} to "
         f"{show(row.high, 'g4')}"
         for row in rows.frame.itertuples()
         if row.verdict == MISPRINT
@@ -346,7 +360,7 @@ def _overall(evidence: Evidence, view: View) -> list[str] | None:
     words = [
         f"{_QUANTITIES[row.quantity]} {_VERDICTS[row.verdict]} "
         f"(χ² = {show(row.chi2, 'fixed1')} on {row.df} degrees of freedom, "
-        f"p\u00a0=\u00a0{show(row.log10_p, 'log10p')}; largest difference "
+        f"{p_is(row.log10_p)}; largest difference "
         f"{show(abs(row.furthest), 'fixed2')} standard errors)"
         for row in each.itertuples()
     ]

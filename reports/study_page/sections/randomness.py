@@ -59,7 +59,7 @@ def _randomness(evidence: Evidence) -> Prose:
                 f"{show(row['share_below'], 'percent2')} "
                 f"({LEVEL} interval {show(row['share_low'], 'percent2')} to "
                 f"{show(row['share_high'], 'percent2')}), {chance}. "
-                f"About {show(row['expected_below'], 'int')} had to, even with perfect points. "
+                f"About {show(row['expected_below'], 'int')} would, even with perfect points. "
                 f"After Holm's correction {none_or(row['rejected_holm'])} "
                 f"{'reject' if row['rejected_holm'] > 1 else 'rejects'}."
             ]

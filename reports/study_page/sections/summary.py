@@ -16,19 +16,21 @@ from reports.page.evidence import Evidence
 from reports.page.views import View
 from reports.study_page.sections.plain_insertion import paper_triangulation
 from reports.study_page.sections.regressions import trend_sentence
-from reports.study_page.sections.theory import one_chance
+from reports.study_page.sections.theory import one_chance_in_short
 from reports.study_page.tables import TABLE_4
 from reports.text.words import LEVEL
 from study.analysis.group_summaries import GROUPS, OVERVIEW
 from study.analysis.table import Rows
 from study.analysis.terminal_regions import REGIONS
 from study.analysis.theorems import MEAN, SD, THEOREM_1, THEOREM_2
-from study.paper.published import REFERENCE_METHOD
-from study.paper.reproduction import JUDGED, SUMMARY, independent_column
+from study.paper.judging import DIFFERS
+from study.paper.published import INDEPENDENT, REFERENCE_METHOD, SHOWN
+from study.paper.reproduction import JUDGED, REPRODUCTION
 from study.paper.statements import NOT_TESTED, STATEMENTS
-from study.statistics.thresholds import CLOSE_UP_TO
+from study.statistics.tails import log10_chi2_tail
+from study.statistics.thresholds import CLOSE_UP_TO, ROUGH_RATE
 from study.statistics.verdicts import NO, NOT_REJECTED, NOT_SHOWN, UNDECIDED, YES, all_of
-from study.text.numbers import count, large, listed, show
+from study.text.numbers import count, large, listed, p_is, show
 
 
 def section(evidence: Evidence) -> Section:
@@ -104,17 +106,8 @@ def _tiles(evidence: Evidence, view: View) -> list[Tile] | None:
                 f"from p; measured is {_off(moment['relative_difference'])}",
             )
         )
-    verdicts = evidence.rows(SUMMARY, method=view.method)
-    agrees, close, differs = (int(verdicts[independent_column(v)].sum()) for v in JUDGED)
-    # Of other triangulations the paper prints nothing.
-    if view.method == REFERENCE_METHOD and agrees + close + differs:
-        tiles.append(
-            Tile(
-                f"{agrees + close} of {agrees + close + differs}",
-                "Independent published numbers met",
-                f"within {CLOSE_UP_TO:g} standard errors",
-            )
-        )
+    if view.method == REFERENCE_METHOD:  # of other triangulations the paper prints nothing
+        tiles += _published(evidence, view)
     regions = evidence.rows(REGIONS, view)
     if not regions.empty:
         tiles.append(
@@ -125,6 +118,27 @@ def _tiles(evidence: Evidence, view: View) -> list[Tile] | None:
             )
         )
     return tiles
+
+
+def _published(evidence: Evidence, view: View) -> list[Tile]:
+    """Count the published numbers met: all in the view of the paper's, else the distribution's."""
+    rows = evidence.rows(REPRODUCTION, method=view.method, standing=INDEPENDENT).frame
+    label = "Independent published numbers met"
+    if view.distribution != SHOWN:
+        rows = rows[rows["distribution"] == view.distribution]
+        label = f"Published numbers of {view.distribution_word} points met"
+    judged = rows[rows["verdict"].isin(JUDGED)]
+    if judged.empty:
+        return []
+    z = judged["difference"].dropna().to_numpy()
+    together = f"; χ² of all has {p_is(log10_chi2_tail(float(z @ z), len(z)))}" if len(z) else ""
+    return [
+        Tile(
+            f"{int((judged['verdict'] != DIFFERS).sum())} of {len(judged)}",
+            label,
+            f"within {CLOSE_UP_TO:g} standard errors{together}",
+        )
+    ]
 
 
 def _off(relative: float) -> str:
@@ -166,22 +180,40 @@ def _theory(evidence: Evidence, view: View) -> str | None:
         return None
     last = rows.select(n_points=rows["n_points"].max()).frame.set_index("statistic")
     mean, sd = last.loc[MEAN], last.loc[SD]
-    step = f"step ends a path with a chance of at least {LEAST_P_TEXT}"
     if all_of(bounds["bounds"]) == YES:
-        supposed = {
-            YES: f"and follow from what holds as well, that every {step}",
-            NO: f"although not every {step}{_refuted(bounds)}, from which they would follow",
-            UNDECIDED: f"while it stays open whether every {step}, from which they would follow",
-        }[all_of(bounds["premise"])]
-        outcome = f"Theorem 2's bounds hold in every triangulation, {supposed}."
+        outcome = f"Theorem 2's bounds hold in every triangulation, {_supposed(bounds)}."
     else:
         outcome = "Theorem 2's bounds fail."
     return (
-        f"{outcome} Theorem 1 takes one chance for all steps. {one_chance(evidence, view)} With "
-        f"the chance at the first step, the mean is {_off(mean['relative_difference'])} the "
+        f"{outcome} Theorem 1 takes one chance for all steps, "
+        f"{one_chance_in_short(evidence, view)}. "
+        f"With the chance at the first step, the mean is {_off(mean['relative_difference'])} the "
         "theorem's; with that of all steps it fits by construction, and the standard deviation is "
         f"{_off(sd['difference_all_steps'])}."
     )
+
+
+def _supposed(bounds: Rows) -> str:
+    """Say whether what the bounds follow from holds as well."""
+    step = f"step ends a path with a chance of at least {LEAST_P_TEXT}"
+    premise = all_of(bounds["premise"])
+    if premise == YES:
+        return (
+            f"and follow from what holds as well, that every {step}, as far as the chances are "
+            f"known to within {ROUGH_RATE:g} ({_known_up_to(bounds)})"
+        )
+    if premise == NO:
+        return f"although not every {step}{_refuted(bounds)}, from which they would follow"
+    return f"while it stays open whether every {step}, from which they would follow"
+
+
+def _known_up_to(bounds: Rows) -> str:
+    """Say up to which size of the path the chances are known."""
+    upto = bounds["upto_size"].dropna()
+    least, most = int(upto.min()), int(upto.max())
+    if least == most:
+        return f"up to size {most}"
+    return f"up to size {least} to {most}, by the number of points"
 
 
 def _refuted(bounds: Rows) -> str:
@@ -198,14 +230,14 @@ def _statements(evidence: Evidence, view: View) -> list[str] | None:
         return None
     holds = rows["holds"].value_counts()
     counted = [
-        f"{holds[key]} {word}"
-        for key, word in (
-            (YES, "hold"),
-            (NO, "do not"),
-            (UNDECIDED, UNDECIDED),
-            (NOT_REJECTED, NOT_REJECTED),
-            (NOT_SHOWN, NOT_SHOWN),
-            (NOT_TESTED, NOT_TESTED),
+        f"{holds[key]} {word if holds[key] > 1 else of_one}"
+        for key, word, of_one in (
+            (YES, "hold", "holds"),
+            (NO, "do not", "does not"),
+            (UNDECIDED, *2 * (UNDECIDED,)),
+            (NOT_REJECTED, *2 * (NOT_REJECTED,)),
+            (NOT_SHOWN, *2 * (NOT_SHOWN,)),
+            (NOT_TESTED, *2 * (NOT_TESTED,)),
         )
         if key in holds
     ]

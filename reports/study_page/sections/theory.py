@@ -32,9 +32,10 @@ from study.analysis.theorems import (
     THEOREM_2,
     TYPES,
 )
+from study.statistics.continuation import ENOUGH
 from study.statistics.thresholds import ROUGH_RATE
 from study.statistics.verdicts import NO, REJECTED, YES
-from study.text.numbers import large, listed, show
+from study.text.numbers import f_test, large, listed, p_is, show
 
 #: The size from which on paths are called long.
 LONG = 8
@@ -104,16 +105,19 @@ def _premise(evidence: Evidence, view: View) -> list[str] | None:
     return [
         "A path ends at a neighbour of type C: one whose own longest edge is the edge that is "
         f"crossed. At {size} the share of such neighbours, which is the chance that a path ends at "
-        f"its first step, is p\u00a0=\u00a0{show(last['p_type_c'], 'fixed4')}.{all_steps}",
+        "its first step, but for the few that end at the boundary there, is "
+        f"p\u00a0=\u00a0{show(last['p_type_c'], 'fixed4')}.{all_steps}",
         f"Theorem 2 supposes {PREMISE} and, with Theorem 1, the same p at every step. Its bounds "
         f"need less: if every step ends a path with a chance of at least {LEAST_P_TEXT}, which may "
         "differ from step to step, then at most (2/3)ʲ of the paths go on for j steps after "
         f"their second triangle, the mean is at most 2 + 2/3 + (2/3)² + … = {MOST_MEAN:g}, and the "
-        f"standard deviation at most √{MOST_SD**2:g}. {_every_step(rows)} {_bounds_hold(rows)}",
+        f"standard deviation at most √{MOST_SD**2:g}. {_every_step(evidence, view)} "
+        f"{_bounds_hold(rows)}",
     ]
 
 
-def _every_step(rows: Rows) -> str:
+def _every_step(evidence: Evidence, view: View) -> str:
+    rows = evidence.rows(THEOREM_2, view)
     premise = rows["premise"]
     known = rows.frame.dropna(subset="lowest_rate")
     if known.empty:
@@ -121,8 +125,26 @@ def _every_step(rows: Rows) -> str:
     least = known.loc[known["lowest_rate"].idxmin()]
     return (
         f"As far as the chances are known to within {ROUGH_RATE:g}, this {_in_groups(premise)}: "
-        f"the least is {show(least['lowest_rate'], 'fixed4')}, at size {least['lowest_size']} and "
-        f"{least['n_points']:,} points."
+        f"the least chance to end, at a neighbour of type C or at the boundary, is "
+        f"{show(least['lowest_rate'], 'fixed4')}, at size {least['lowest_size']} and "
+        f"{least['n_points']:,} points.{_of_the_edge(evidence, view, least)}"
+    )
+
+
+def _of_the_edge(evidence: Evidence, view: View, least: pd.Series) -> str:
+    """Say that the least chance to end is an effect of the edge, if the interior's is higher."""
+    inside = sure(evidence.rows(CONTINUATION, view, part=INTERIOR).frame)
+    if inside.empty:
+        return ""
+    lowest = inside.loc[inside["rate"].idxmax()]
+    if not 1 - lowest["high"] > least["lowest_high"]:
+        return ""
+    return (
+        " That is the edge of the mesh: in the interior, at "
+        f"{lowest['n_points']:,} points, the least is {show(1 - lowest['rate'], 'fixed4')}, at "
+        "size "
+        f"{lowest['lepp_size']}, as far as the chances there are known (up to size "
+        f"{inside['lepp_size'].max()})."
     )
 
 
@@ -223,17 +245,22 @@ def one_chance(evidence: Evidence, view: View) -> str:
     test = evidence.one(PATH_LAWS, view, part=part, law=CONSTANT)
     if test is None:
         return "The run is too small to test whether one chance fits all steps."
-    numbers = f"({_chi_squared(test)}, {_WHERE[part]})"
+    numbers = f"({_test(test)}, {_WHERE[part]})"
     if test["verdict"] == REJECTED:
         return f"No single chance fits the steps {numbers}, whichever it is."
     return f"That one chance fits all steps is not rejected {numbers}."
 
 
-def _chi_squared(law: pd.Series) -> str:
-    return (
-        f"χ²\u00a0=\u00a0{show(law['chi_squared'], 'g3')} on {law['df']} degrees of freedom, "
-        f"p\u00a0=\u00a0{show(law['log10_p'], 'log10p')}"
-    )
+def one_chance_in_short(evidence: Evidence, view: View) -> str:
+    """Say whether one chance fits all steps in a clause that follows Theorem 1's premise."""
+    test = evidence.one(PATH_LAWS, view, part=_part(evidence, view), law=CONSTANT)
+    if test is None:
+        return "which this run is too small to test"
+    return f"which is {test['verdict']} ({p_is(test['log10_p'])})"
+
+
+def _test(law: pd.Series) -> str:
+    return f"{f_test(law['f'], law['df'], law['df_residual'])}, {p_is(law['log10_p'])}"
 
 
 def _off(rows: pd.DataFrame, column: str) -> str:
@@ -357,8 +384,9 @@ def _continuation(evidence: Evidence) -> FigureBlock:
         return " ".join(
             sentence
             for sentence in (
-                f"{_WHERE[part].capitalize()}, the chance to go on "
+                f"At {_largest(evidence, rows)}, {_WHERE[part]}, the chance to go on "
                 f"{_trend(rows, _one_fits(evidence, view, part))}.",
+                _rise_at_the_edge(evidence, view) if part == INTERIOR else "",
                 _fitted(evidence, view, part),
                 _longest(evidence, view, part),
             )
@@ -371,7 +399,9 @@ def _continuation(evidence: Evidence) -> FigureBlock:
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
         reading="Of the paths that have k triangles or more, the share that have more, with "
-        f"{LEVEL} intervals. Theorem 1 takes it to be constant. Long paths come in bundles that "
+        f"{LEVEL} intervals, at the largest number of points with {ENOUGH} triangulations or more: "
+        "of fewer the covariance of the chances is not known. Theorem 1 takes it to be constant. "
+        "Long paths come in bundles that "
         "share most of their triangles: the longest one seen scatters more widely around what a "
         "law expects than independent paths would.",
         data=(
@@ -413,14 +443,51 @@ def _one_fits(evidence: Evidence, view: View, part: str) -> bool:
     return test is not None and test["verdict"] != REJECTED
 
 
+def sure(rows: pd.DataFrame) -> pd.DataFrame:
+    """Return the chances up to the first that is not known to within `ROUGH_RATE`."""
+    return rows[(rows["high"] - rows["low"] < ROUGH_RATE).cummin()]
+
+
+def _largest(evidence: Evidence, rows: pd.DataFrame) -> str:
+    """Say how many points the chances are of, and why no more."""
+    n_points = rows["n_points"].iloc[0]
+    if n_points == max(evidence.design.sizes):
+        return f"{n_points:,} points"
+    return f"{n_points:,} points (the largest number with {ENOUGH} triangulations or more)"
+
+
+def _rise_at_the_edge(evidence: Evidence, view: View) -> str:
+    """Say that in the whole mesh the chance rises again, where the interior's does not."""
+    whole = sure(evidence.rows(CONTINUATION, view, part=WHOLE).frame)
+    inside = sure(evidence.rows(CONTINUATION, view, part=INTERIOR).frame)
+    if whole.empty or inside.empty:
+        return ""
+    least = whole.loc[whole["rate"].idxmin()]
+    after = whole[whole["lepp_size"] > least["lepp_size"]]
+    if after.empty:
+        return ""
+    most = after.loc[after["rate"].idxmax()]
+    end = inside.iloc[-1]
+    if not (most["low"] > least["high"] and most["low"] > end["high"]):
+        return ""
+    return (
+        f"In the whole mesh it falls to {show(least['rate'], 'percent1')} after "
+        f"{least['lepp_size']} triangles and rises again, to {show(most['rate'], 'percent1')} "
+        "after "
+        f"{most['lepp_size']}: the longest paths are those along the edge."
+    )
+
+
 def _trend(rows: pd.DataFrame, level: bool) -> str:
     """Say how the chances change, of those that are known well, or of all if none is."""
-    narrow = (rows["high"] - rows["low"] < ROUGH_RATE).cummin()
-    sure = rows[narrow] if narrow.sum() > 1 else rows
-    rates, last = sure["rate"], sure.iloc[-1]
+    known = sure(rows)
+    well = len(known) > 1
+    if not well:
+        known = rows
+    rates, last = known["rate"], known.iloc[-1]
     upto = (
         f"up to size {last['lepp_size']}, as far as it is known to within {ROUGH_RATE:g}"
-        if narrow.sum() > 1
+        if well
         else f"up to size {last['lepp_size']}, where it is not known to within {ROUGH_RATE:g}"
     )
     ends = f"from {show(rates.iloc[0], 'percent1')} to {show(rates.iloc[-1], 'percent1')}"
@@ -429,7 +496,7 @@ def _trend(rows: pd.DataFrame, level: bool) -> str:
     if rates.is_monotonic_increasing and not level:
         return f"rises with every step, {ends}, {upto}"
     before = rates.shift()
-    rises, falls = (sure["low"] > before).any(), (sure["high"] < before).any()
+    rises, falls = (known["low"] > before).any(), (known["high"] < before).any()
     if rises != falls and not level:
         return f"{'rises' if rises else 'falls'} {ends}, {upto}"
     least, most = show(rates.min(), "percent1"), show(rates.max(), "percent1")
@@ -439,7 +506,7 @@ def _trend(rows: pd.DataFrame, level: bool) -> str:
 def _fitted(evidence: Evidence, view: View, part: str) -> str:
     if _one_fits(evidence, view, part):
         constant = evidence.rows(PATH_LAWS, view, part=part, law=CONSTANT).first
-        return f"One chance for all steps is not rejected ({_chi_squared(constant)})."
+        return f"One chance for all steps is not rejected ({_test(constant)})."
     falling = evidence.one(PATH_LAWS, view, part=part, law=FALLING)
     if falling is None:
         return ""
@@ -449,9 +516,18 @@ def _fitted(evidence: Evidence, view: View, part: str) -> str:
         for sign, name in (("λ", "scale"), ("b", "shift"), ("a", "exponent"))
     ]
     return (
-        f"The law {FALLING} with {listed(coefficients)} is {falling['verdict']} "
-        f"({_chi_squared(falling)})."
+        f"The law {FALLING} with {listed(coefficients)}, fitted up to size "
+        f"{falling['upto_size']}{_why_no_further(evidence, view, part, falling)}, is "
+        f"{falling['verdict']} ({_test(falling)})."
     )
+
+
+def _why_no_further(evidence: Evidence, view: View, part: str, law: pd.Series) -> str:
+    """Say why a law is not fitted to all chances that are known well."""
+    known = sure(evidence.rows(CONTINUATION, view, part=part).frame)
+    if not (known["lepp_size"] > law["upto_size"]).any():
+        return ""
+    return " (no more sizes than a third of the covariance's degrees of freedom)"
 
 
 def _longest(evidence: Evidence, view: View, part: str) -> str:
@@ -461,7 +537,7 @@ def _longest(evidence: Evidence, view: View, part: str) -> str:
     expected = [
         f"{laws.loc[law, 'longest_expected']} by {words}"
         for law, words in (
-            (FALLING, "this law"),
+            (FALLING, f"this law{_although(laws)}"),
             (FIRST_STEP, "Theorem 1 with the chance at the first step"),
             (ALL_STEPS, "Theorem 1 with that of all steps"),
         )
@@ -473,6 +549,11 @@ def _longest(evidence: Evidence, view: View, part: str) -> str:
         f"{first['longest_seen']} triangles"
     )
     return f"{told}; expected are {listed(expected)}." if expected else f"{told}."
+
+
+def _although(laws: pd.DataFrame) -> str:
+    rejected = FALLING in laws.index and laws.loc[FALLING, "verdict"] == REJECTED
+    return " (which is rejected)" if rejected else ""
 
 
 def _law(evidence: Evidence) -> FigureBlock:

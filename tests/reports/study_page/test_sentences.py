@@ -67,7 +67,7 @@ def test_verdicts_are_counted(evidence: Evidence) -> None:
     tables = (frame["method"] == "incremental").sum()
     assert f"{7 * tables} within 2 (agreement), 0 within 3 (close)" in said
     assert f"{3 * tables} beyond" in said
-    assert f"{10 * tables} of them are independent of one another" in said
+    assert f"{10 * tables} of them are not derived from another" in said
 
 
 def test_chance_is_not_blamed_for_too_many_rejections(evidence: Evidence) -> None:

@@ -1,5 +1,6 @@
 """What the report says of methods, agreement and completeness, counted anew; and the opposite."""
 
+import re
 from dataclasses import replace
 from functools import cache
 
@@ -13,7 +14,7 @@ from scipy import stats
 
 from reports.page.blocks import TableBlock
 from reports.study_page import sections
-from reports.study_page.sections import agreement, methods
+from reports.study_page.sections import agreement, methods, summary
 from study.analysis.analyse import MISSING
 from study.paper import published
 
@@ -135,27 +136,42 @@ def independent(page_of):
     return frame.loc[frame["standing"] == "independent", "verdict"]
 
 
+def judged_rows(frame):
+    """Index of the independent numbers with a verdict by standard errors."""
+    judged = frame["verdict"].isin(["agrees", "close", "differs"])
+    return frame.index[judged & (frame["standing"] == "independent")]
+
+
 def test_what_does_not_count_is_said():
     said = paper_run().prose("scoreboard")
     assert (
-        "Not counted are 23 that follow from the paper's own Table 4, 6 that every run of this "
-        "design gives, 4 that stand beside the p-value of the same test and 20 that are random "
-        "draws, which no other run can repeat."
+        "Not counted are the other 65: 23 that follow from the paper's own Table 4, 6 that every "
+        "run of this design gives, 4 that stand beside the p-value of the same test, "
     ) in said
+    board = paper_run().evidence.tables["reproduction"].frame
+    parts = said.partition("the other 65: ")[2].partition(". ")[0]
+    counted = [int(number) for number in re.findall(r"\b(\d+) that ", parts)]
+    assert sum(counted) == 65 == len(board) - len(independent(paper_run()).loc[judged_rows(board)])
     draws = paper_run().evidence.tables["reproduction"].frame.query("standing == 'random draw'")
     odd = (draws["verdict"] == "implausible draw").sum()
-    assert (f"{odd} draws are not plausible" in said) == (odd > 1)
-    assert "12 of all numbers belong to groups" not in said  # Table 1 is not run either
+    assert (f", {odd} are not plausible" in said) == (odd > 1)
+    assert "12 that belong to groups" not in said  # Table 1 is not run either
     run_none = (paper_run().evidence.tables["reproduction"].frame["verdict"] == "not run").sum()
-    assert f"{run_none} of all numbers belong to groups that this run does not have." in said
+    assert f"{run_none} that belong to groups which this run does not have." in said
 
 
 def test_draws_are_held_against_ours():
     kept = paper_run().evidence
     for verdicts, words in [
-        (["plausible draw"] * 20, "All draws are plausible beside ours."),
-        (["implausible draw"] + ["plausible draw"] * 19, "1 draw is not plausible beside ours."),
-        (["implausible draw"] * 2 + ["not run"] * 18, "2 draws are not plausible beside ours."),
+        (["plausible draw"] * 20, "All 20 draws that can be held against ours are plausible."),
+        (
+            ["implausible draw"] + ["plausible draw"] * 19,
+            "Of 20 draws that can be held against ours, 1 is not plausible.",
+        ),
+        (
+            ["implausible draw"] * 2 + ["not run"] * 18,
+            "Of 2 draws that can be held against ours, 2 are not plausible.",
+        ),
     ]:
         frame = kept.tables["reproduction"].frame.copy()
         frame.loc[frame["standing"] == "random draw", "verdict"] = verdicts
@@ -216,7 +232,7 @@ def test_the_paper_is_held_against_itself():
     assert said == (
         "24 published numbers of Tables 5, 6 and 7 follow from the means and standard deviations "
         "of the paper's own Table 4; 23 of them lie in the range that the rounding of Table 4 "
-        "leaves open. 1 number is a misprint, whatever the data were: 7.535e+05 (linear, b, as "
+        "leaves open. 1 number is a misprint, whatever the data were: 7.535 × 10⁵ (linear, b, as "
         "printed), where Table 4 gives 7.473 × 10⁻⁵ to 7.623 × 10⁻⁵."
     )
     kept = paper_run().evidence
@@ -265,8 +281,9 @@ def test_scoreboard_counts_what_agrees():
     said = right.prose("scoreboard")
     assert said.startswith("The paper prints 146 numbers in its seven tables.")
     assert (
-        f"{judged} of them are independent of one another and can be held against ours by their "
-        f"standard errors: {board['agrees']} within 2 (agreement), {board.get('close', 0)} within "
+        f"{judged} of them are not derived from another printed number, and can be held against "
+        f"ours by their standard errors: {board['agrees']} within 2 (agreement), "
+        f"{board.get('close', 0)} within "
         f"3 (close) and {board.get('differs', 0)} beyond (different)."
     ) in said
     means = right.finding("figure-means")
@@ -282,7 +299,10 @@ def test_scoreboard_counts_what_agrees():
     value, context = right.tiles()[TILE]
     agreeing = int(board["agrees"] + board.get("close", 0))
     assert value == f"{agreeing} of {judged}"
-    assert context == "within 3 standard errors"
+    rows = right.evidence.tables["reproduction"].frame.query("standing == 'independent'")
+    z = rows.loc[rows["verdict"].isin(["agrees", "close", "differs"]), "difference"].dropna()
+    p = stats.chi2.sf((z**2).sum(), len(z))
+    assert context == f"within 3 standard errors; χ² of all has p = {p:.4f}"
 
 
 def test_table_4_as_a_whole():
@@ -372,8 +392,24 @@ def test_statements_are_counted():
         counts = rows["holds"].value_counts()
         said = page(name).prose("statements")
         assert said.startswith(f"Of {len(rows)} statements of the paper, for uniform points and")
-        for verdict, word in (("yes", "hold"), ("no", "do not"), ("not tested", "not tested")):
-            assert (f"{counts.get(verdict, 0)} {word}" in said) == (verdict in counts)
+        for verdict, word, one in (
+            ("yes", "hold", "holds"),
+            ("no", "do not", "does not"),
+            ("not tested", "not tested", "not tested"),
+        ):
+            n = counts.get(verdict, 0)
+            words = re.findall(rf"\b{n} {one if n == 1 else word}\b", said)
+            assert bool(words) == (verdict in counts)
+
+
+def test_one_statement_holds_and_one_does_not():
+    kept = page("drawn").evidence
+    table = kept.tables["statements"]
+    holds = ["yes", "no"] + ["undecided"] * (len(table.frame) - 2)
+    frame = table.frame.assign(holds=holds)
+    changed = replace(kept, tables=kept.tables.adding(replace(table, frame=frame)))
+    said = PageText([summary.section(changed)], changed).prose("statements")
+    assert "method: 1 holds, 1 does not and 13 undecided." in said
 
 
 def test_worst_case_and_points():

@@ -1,10 +1,14 @@
 """What the report says of the theorems, against numbers counted anew; and the opposite."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from made_runs import METHODS, page, run
+from page_text import PageText
 from scipy import stats
 
+from reports.study_page.sections import summary
 from study.text.numbers import p_value_from_log10, significant
 
 
@@ -47,21 +51,23 @@ def test_premise_holds_or_fails_by_every_step():
     assert said == (
         "A path ends at a neighbour of type C: one whose own longest edge is the edge that is "
         "crossed. At 8,000 uniform points the share of such neighbours, which is the chance that a "
-        f"path ends at its first step, is p = {p:.4f}. Of all steps together, a share of "
+        f"path ends at its first step, but for the few that end at the boundary there, is "
+        f"p = {p:.4f}. Of all steps together, a share of "
         f"r = {r:.4f} ends a path. Theorem 2 supposes p ≥ 1/3 and, with Theorem 1, the same p at "
         "every step. Its bounds need less: if every step ends a path with a chance of at least "
         "1/3, which may differ from step to step, then at most (2/3)ʲ of the paths go on for j "
         "steps after their second triangle, the mean is at most 2 + 2/3 + (2/3)² + … = 4, and the "
         "standard deviation at most √6. As far as the chances are known to within 0.05, this holds "
-        f"in every group: the least is {rate:.4f}, at size {size} and {n:,} points. The bounds "
-        f"hold in every single triangulation: means from {means.min():.4f} to {means.max():.4f}, "
+        "in every group: the least chance to end, at a neighbour of type C or at the boundary, "
+        f"is {rate:.4f}, at size {size} and {n:,} points. The bounds hold in every single "
+        f"triangulation: means from {means.min():.4f} to {means.max():.4f}, "
         f"standard deviations up to {rows('high p')['sd_lepp'].max():.4f}, where √6 is "
         f"{np.sqrt(6):.4f}. The lower one, 2, is the size of the shortest path inside."
     )
     rate, size, n = least("low p")
     assert (
-        f"known to within 0.05, this fails in every group: the least is {rate:.4f}, at size {size} "
-        f"and {n:,} points."
+        "known to within 0.05, this fails in every group: the least chance to end, at a neighbour "
+        f"of type C or at the boundary, is {rate:.4f}, at size {size} and {n:,} points."
     ) in page("low p").prose("types")
     assert f"p = {shares('low p').mean():.4f}" in page("low p").prose("types")
 
@@ -78,9 +84,13 @@ def test_broken_bounds_are_counted():
 def test_opening_on_the_theorems():
     need = "every step ends a path with a chance of at least 1/3"
     bounds = "Theorem 2's bounds hold in every triangulation"
-    assert f"{bounds}, and follow from what holds as well, that {need}." in page("high p").prose(
-        "key-figures"
-    )
+    upto = page("high p").evidence.tables["theorem_2"].frame.query("method == 'incremental'")
+    least_k, most_k = upto["upto_size"].min(), upto["upto_size"].max()
+    known = f"{least_k} to {most_k}, by the number of points" if least_k < most_k else str(most_k)
+    assert (
+        f"{bounds}, and follow from what holds as well, that {need}, as far as the chances are "
+        f"known to within 0.05 (up to size {known})."
+    ) in page("high p").prose("key-figures")
     assert (
         f"{bounds}, although not {need} (the least is {least('low p')[0]:.4f}), from which they "
         "would follow."
@@ -139,8 +149,10 @@ def numbers(row):
     p = 10 ** row["log10_p"]
     shown = p_value_from_log10(row["log10_p"]).replace("\u00a0", " ")
     assert (p > 0.001) == ("×" not in shown)
-    chi_squared = significant(row["chi_squared"], 3).replace("\u00a0", " ")
-    return f"χ² = {chi_squared} on {row['df']} degrees of freedom, p = {shown}"
+    f = significant(row["f"], 3).replace("\u00a0", " ")
+    tail = stats.f.logsf(row["f"], row["df"], row["df_residual"]) / np.log(10)
+    assert row["log10_p"] == pytest.approx(tail, rel=1e-6)
+    return f"F = {f} on {row['df']} and {row['df_residual']} degrees of freedom, p = {shown}"
 
 
 def test_one_chance_for_all_steps_is_rejected_or_not():
@@ -153,10 +165,18 @@ def test_one_chance_for_all_steps_is_rejected_or_not():
     assert (
         f"That one chance fits all steps is not rejected ({numbers(constant)}, in the interior)."
     ) in page("constant chance").prose("theorem-1")
-    for name in ("falling chance", "constant chance"):
-        assert "takes one chance for all steps. " in page(name).prose("key-figures")
-    assert "No single chance" in page("falling chance").prose("key-figures")
-    assert "is not rejected" in page("constant chance").prose("key-figures")
+    for name, law in (("falling chance", falling), ("constant chance", constant)):
+        p = numbers(law).split(", ")[-1]
+        assert f"takes one chance for all steps, which is {law['verdict']} ({p}). " in page(
+            name
+        ).prose("key-figures")
+        assert "No single chance" not in page(name).prose("key-figures")
+    kept = page("falling chance").evidence
+    untested = kept.tables["path_laws"]
+    untested = replace(untested, frame=untested.frame.iloc[:0])
+    changed = replace(kept, tables=kept.tables.adding(untested))
+    said = PageText([summary.section(changed)], changed).prose("key-figures")
+    assert "for all steps, which this run is too small to test. " in said
     outside = page("falling chance, no interior").prose("theorem-1")
     assert "No single chance" in outside
     assert ", in the whole mesh), whichever" in outside
@@ -222,7 +242,8 @@ def test_chance_to_go_on_changes(name, how):
     upto = int(rest.split(",")[0])
     chance = chances(name)
     assert start == (
-        f"In the interior, the chance to go on {how}from {100 * chance[2]:.1f} % to "
+        f"At 8,000 points, in the interior, the chance to go on {how}from {100 * chance[2]:.1f} % "
+        "to "
         f"{100 * chance[upto]:.1f} %"
     )
     assert SURE in said
@@ -236,14 +257,17 @@ def test_chance_to_go_on_that_neither_falls_nor_rises(name):
     upto = int(said.partition(", up to size ")[2].split(",")[0])
     chance = chances(name)[2 : upto + 1]
     assert said.startswith(
-        f"In the interior, the chance to go on moves between {100 * chance.min():.1f} % and "
+        "At 8,000 points, in the interior, the chance to go on moves between "
+        f"{100 * chance.min():.1f} % and "
         f"{100 * chance.max():.1f} %, up to size {upto}, {SURE}"
     )
 
 
 def test_no_interior_is_told_of_the_whole_mesh():
     said = page("falling chance, no interior").finding("figure-continuation")
-    assert said.startswith("In the whole mesh, the chance to go on falls with every step, from ")
+    assert said.startswith(
+        "At 8,000 points, in the whole mesh, the chance to go on falls with every step, from "
+    )
     assert f"from {100 * chances('falling chance, no interior', 'histograms')[2]:.1f} %" in said
 
 
@@ -253,8 +277,9 @@ def test_the_law_of_the_chance_to_go_on():
     assert (
         f"The law λ / (k + b)ᵃ with λ = {law['scale']:.3f} ± {law['scale_error']:.3f}, "
         f"b = {law['shift']:.3f} ± {law['shift_error']:.3f} and a = {law['exponent']:.3f} ± "
-        f"{law['exponent_error']:.3f} is not rejected ({numbers(law)})."
+        f"{law['exponent_error']:.3f}, fitted up to size {law['upto_size']}"
     ) in said
+    assert f"is not rejected ({numbers(law)})." in said
     assert abs(law["exponent"] - 0.5) < 3 * law["exponent_error"]
     other = path_laws("crooked chance").loc["λ / (k + b)ᵃ"]
     said = page("crooked chance").finding("figure-continuation")

@@ -29,7 +29,7 @@ def test_classical_is_the_regression_on_groups(study):
         assert row.p == pytest.approx(table["PR(>F)"].iloc[0])
         assert 10**row.log10_p == pytest.approx(row.p)
         assert (row.df_group, row.df_residual) == tuple(table["df"])
-        if row.effect == "eta squared":
+        if row.effect == "η²":
             assert row.effect_size == pytest.approx(between / (between + within))
         else:
             mean_square = within / table["df"].iloc[1]

@@ -48,11 +48,11 @@ EVERY_STEP = "Every step of a path ends with the same probability p"
 def laws(verdict, part="interior", log10_p=-40.6):
     """The test of a constant chance beside the laws that are not asked for."""
     row = {"part": part, "n_points": 20_000, "upto_size": 5, "df": 3, "log10_p": log10_p,
-           "chi_squared": 907_387.2}  # fmt: skip
+           "f": 907_387.2}  # fmt: skip
     other = {"rejected": "not rejected", "not rejected": "rejected"}[verdict]
     return [
         row | {"law": "constant", "verdict": verdict},
-        row | {"law": "λ / (k + b)ᵃ", "verdict": other, "chi_squared": 5.7, "log10_p": -0.1},
+        row | {"law": "λ / (k + b)ᵃ", "verdict": other, "f": 5.7, "log10_p": -0.1},
         row | {"law": "Theorem 1", "verdict": "", "upto_size": 2},
     ]
 
@@ -93,9 +93,8 @@ def test_one_chance_for_all_steps_that_is_rejected():
     )
     assert holds == "no"
     assert spaced(evidence) == (
-        "The chance to go on is 0.5800 after 2 triangles and 0.3878 after 5 (interior, 20,000 "
-        "points). One chance for all: χ² = 907,387 on 3 degrees of freedom, p = 2.5 × 10⁻⁴¹: no p "
-        f"fits. {FOLLOWS}"
+        "The chance to go on is 58.0 % after 2 triangles and 38.8 % after 5 (interior, 20,000 "
+        f"points). One chance for all: p = 2.5 × 10⁻⁴¹. {FOLLOWS}"
     )
 
 
@@ -158,13 +157,17 @@ def test_premise(verdicts, holds):
         "lowest_rate": [0.4157, 0.3031],
         "lowest_size": [2, 4],
     }
-    first = "p at the first step from 0.3029 to 0.4156; "
+    first = "share p of type C from 0.3029 to 0.4156; "
+    least = (
+        f"{first}the least chance to end at any step, at a neighbour of type C or at the "
+        "boundary, is"
+    )
     assert judged(PREMISE, theorem_2=rows) == (
-        holds, f"{first}the least chance at any step is 0.3031, at size 4 (20,000 points)",
+        holds, f"{least} 0.3031, at size 4 (20,000 points)",
     )  # fmt: skip
     rows["lowest_rate"][1] = np.nan
     assert judged(PREMISE, theorem_2=rows) == (
-        holds, f"{first}the least chance at any step is 0.4157, at size 2 (10,000 points)",
+        holds, f"{least} 0.4157, at size 2 (10,000 points)",
     )  # fmt: skip
     rows["lowest_rate"] = [np.nan] * 2
     assert judged(PREMISE, theorem_2=rows) == (
@@ -207,10 +210,10 @@ def f_rows(p, **kind):
         ("The variances of the groups differ", "levene", {"center": "mean"},
          [{"center": "median"}], "7.13"),
         ("The means of the groups differ", "anova",
-         {"test": "classical", "effect": "eta squared"},
-         [{"test": "Welch", "effect": "omega squared"},
-          {"test": "classical", "effect": "omega squared"},
-          {"test": "Welch", "effect": "eta squared"}], "33.53"),
+         {"test": "classical", "effect": "η²"},
+         [{"test": "Welch", "effect": "ω²"},
+          {"test": "classical", "effect": "ω²"},
+          {"test": "Welch", "effect": "η²"}], "33.53"),
     ],
 )  # fmt: skip
 def test_f_tests(part, table, asked, others, f):
@@ -255,14 +258,15 @@ def test_means_below_4_and_above_2():
     holds, evidence = judged(part, bounds=rows)
     assert holds == "yes"
     assert spaced(evidence) == (
-        "4 of 4 tests significant after Bonferroni's correction, p at most 9.1 × 10⁻⁷¹; " + above
+        "4 of 4 tests significant after Bonferroni's correction, the largest p = 9.1 × 10⁻⁷¹; "
+        + above
     )
     rows["verdict"][2] = "not rejected"
     rows["log10_p_bonferroni"][2] = -0.5
     holds, evidence = judged(part, bounds=rows)
     assert holds == "not shown"
     assert spaced(evidence) == (
-        f"3 of 4 tests significant after Bonferroni's correction, p at most 0.3162; {above}"
+        "3 of 4 tests significant after Bonferroni's correction, the largest p = 0.3162; " + above
     )
     for column, place, value in (("mean_low", 2, 4.001), ("mean_high", 1, 1.999)):
         wrong = rows | {column: [*rows[column]]}
@@ -329,7 +333,7 @@ def fits(scores, fitting="least squares"):
     ]
 
 
-BEST = "Of the four models the logarithmic one has the highest adjusted R squared"
+BEST = "Of the four models the logarithmic one has the highest adjusted R²"
 
 
 def test_best_of_the_four_models():
@@ -348,7 +352,7 @@ def test_best_of_the_four_models():
     assert why == "not all four models could be fitted"
 
 
-COST, LIMIT = "cost of a LEPP is constant", "has a limit"
+COST, LIMIT = "cost of a LEPP is constant", "asymptotic limit equal to 4"
 
 
 @pytest.mark.parametrize(
@@ -360,18 +364,44 @@ def test_the_cost_is_constant_if_no_mean_is_above_4(highest, holds):
         {"highest_mean": highest, "triangulations": 1000},
     ]
     assert judged(COST, theorem_2=rows) == (
-        holds, f"at most {highest:.4f} in 1,040 triangulations",
+        holds, f"our criterion, a mean of at most 4: it is at most {highest:.4f} in 1,040 "
+        "triangulations",
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("verdict", ["yes", "no", "undecided"])
-def test_a_limit_is_that_of_the_whole_mesh(verdict):
+@pytest.mark.parametrize(
+    ("low", "high", "holds"),
+    [
+        (3.09, 3.11, "no"),
+        (4.001, 4.2, "no"),
+        (3.9, 4.0, "not rejected"),
+        (4.0, 4.1, "not rejected"),
+        (3.09, np.nan, "not rejected"),
+        (4.01, np.nan, "no"),
+    ],
+)
+def test_a_limit_of_4_is_held_against_that_of_the_whole_mesh(low, high, holds):
+    limit = {"limit": 3.1, "limit_low": low, "limit_high": high}
     rows = [
         {"part": "interior", "has_limit": "else", "reason": "not this"},
-        {"part": "whole", "has_limit": verdict, "reason": "so it is"},
+        {"part": "whole", "has_limit": "yes", "reason": "so it is"} | limit,
     ]
-    assert judged(LIMIT, limit_verdicts=rows) == (verdict, "so it is")
-    why = lacking(LIMIT, limit_verdicts=rows[:1])
+    end = "–" if np.isnan(high) else f"{high:.4f}"
+    seen, evidence = judged(LIMIT, limit_verdicts=rows)
+    assert seen == holds
+    assert evidence == (
+        f"the mean has a limit (so it is): 3.1000 (95 % interval {low:.4f} to {end})"
+    )
+
+
+@pytest.mark.parametrize("verdict", ["no", "undecided"])
+def test_without_a_limit_none_is_refuted(verdict):
+    row = {"part": "whole", "has_limit": verdict, "reason": "so it is", "limit": 3.1,
+           "limit_low": 3.0, "limit_high": 3.2}  # fmt: skip
+    assert judged(LIMIT, limit_verdicts=[row]) == (
+        "undecided", f"whether the mean has a limit: {verdict} (so it is)",
+    )  # fmt: skip
+    why = lacking(LIMIT, limit_verdicts=[row | {"part": "interior"}])
     assert why == "the run has too few triangulations"
     few = [{"part": "whole", "has_limit": "undecided", "reason": FEW}]
     assert lacking(LIMIT, limit_verdicts=few) == "the run has too few sizes"
@@ -436,19 +466,20 @@ def test_the_note_says_by_what_it_is_judged():
         "to within 0.05",
         "are at 0.05",
         "if it has a bound",
-        "models of growth survive",
+        "models of growth that survive",
         "“not shown” of what",
     ):
         assert words in note
 
 
-ANALOGOUS = "analogous for all distributions"
+ANALOGOUS = "analogous for all the distributions"
 
 
 @pytest.mark.parametrize("equivalent", ["yes", "no", "undecided"])
 def test_distributions_are_analogous_if_their_means_are_equivalent(equivalent):
     of_whole = {
-        "part": "whole", "comparisons": 60, "alike": 27, "furthest": 0.0048, "furthest_n": 10_000,
+        "part": "whole", "comparisons": 60, "alike": 27, "differ_little": 30,
+        "differ": 2, "undecided": 1, "furthest": 0.0048, "furthest_n": 10_000,
         "furthest_from": "bivariate_normal", "equivalent": equivalent,
     }  # fmt: skip
     other = "no" if equivalent == "yes" else "yes"
@@ -456,9 +487,13 @@ def test_distributions_are_analogous_if_their_means_are_equivalent(equivalent):
     holds, evidence = judged(ANALOGOUS, analogous=[of_interior, of_whole])
     assert holds == equivalent
     assert evidence == (
-        "60 comparisons with the others: 27 alike; the largest difference is 0.48 %, from the "
+        "our criterion, means that differ by less than 1 %: of 60 comparisons with the others, 27 "
+        "show no difference, 30 show one, of less than 1 %, 2 show one that may be 1 % or more and "
+        "1 shows none, but leave room for 1 % or more; the largest difference is 0.48 %, from the "
         "bivariate normal distribution at 10,000 points"
     )
+    of_whole |= {"alike": 60, "differ_little": 0, "differ": 0, "undecided": 0}
+    assert "others, 60 show no difference; the" in judged(ANALOGOUS, analogous=[of_whole])[1]
 
 
 def test_one_distribution_is_analogous_to_nothing():

@@ -2,7 +2,16 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from study.text.numbers import count, large, listed, p_value_from_log10, show, thousands
+from study.text.numbers import (
+    count,
+    f_test,
+    large,
+    listed,
+    p_is,
+    p_value_from_log10,
+    show,
+    thousands,
+)
 
 
 @pytest.mark.parametrize(
@@ -21,7 +30,12 @@ from study.text.numbers import count, large, listed, p_value_from_log10, show, t
         (0.0376, "p", "0.0376"),
         (6.08e-77, "p", "6.1\u00a0×\u00a010⁻⁷⁷"),
         (0.0, "p", "<\u00a010⁻³⁰⁷"),
-        (-400.5, "log10p", "3.2\u00a0×\u00a010⁻⁴⁰¹"),
+        (-400.5, "log10p", "<\u00a010⁻³⁰⁷"),
+        (-300.5, "log10p", "3.2\u00a0×\u00a010⁻³⁰¹"),
+        (3e-310, "p", "<\u00a010⁻³⁰⁷"),
+        (19999959.27, "fixed2", "19,999,959.27"),
+        ("delaunay", "name", "Delaunay"),
+        ("incremental", "name", "plain insertion"),
         (-1.0, "log10p", "0.1000"),
         (float("inf"), "fixed2", "∞"),
         (float("nan"), "fixed2", "–"),
@@ -44,6 +58,16 @@ def test_show(value: object, how: str, text: str) -> None:
 def test_a_small_p_is_never_shown_as_zero() -> None:
     for exponent in range(1, 400):
         assert set(p_value_from_log10(-float(exponent))) - set("0. ")
+
+
+def test_what_a_p_is() -> None:
+    assert p_is(-1.0) == "p\u00a0=\u00a00.1000"
+    assert p_is(-300.5) == "p\u00a0=\u00a03.2\u00a0×\u00a010⁻³⁰¹"
+    assert p_is(-558986.0) == p_is(-float("inf")) == "p\u00a0<\u00a010⁻³⁰⁷"
+
+
+def test_f_has_both_degrees_of_freedom() -> None:
+    assert f_test(12.34567, 9, 390.0) == "F\u00a0=\u00a012.3 on 9 and 390 degrees of freedom"
 
 
 def test_mantissa_is_below_ten() -> None:
