@@ -249,7 +249,7 @@ def _analogous(of: _Tables) -> Judged:
 
 
 def _has_limit(of: _Tables) -> Judged:
-    row = of.rows(LIMIT_VERDICTS, part=WHOLE).first
+    row = of.rows(LIMIT_VERDICTS).first
     if row["reason"] == FEW:
         raise NotEnough(FEW)
     return row["has_limit"], row["reason"]

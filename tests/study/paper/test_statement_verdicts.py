@@ -365,15 +365,12 @@ def test_the_cost_is_constant_if_no_mean_is_above_4(highest, holds):
 
 
 @pytest.mark.parametrize("verdict", ["yes", "no", "undecided"])
-def test_a_limit_is_that_of_the_whole_mesh(verdict):
-    rows = [
-        {"part": "interior", "has_limit": "else", "reason": "not this"},
-        {"part": "whole", "has_limit": verdict, "reason": "so it is"},
-    ]
+def test_a_limit_is_that_of_both_parts(verdict):
+    rows = [{"has_limit": verdict, "reason": "so it is"}]
     assert judged(LIMIT, limit_verdicts=rows) == (verdict, "so it is")
-    why = lacking(LIMIT, limit_verdicts=rows[:1])
+    why = lacking(LIMIT, limit_verdicts=[])
     assert why == "the run has too few triangulations"
-    few = [{"part": "whole", "has_limit": "undecided", "reason": FEW}]
+    few = [{"has_limit": "undecided", "reason": FEW}]
     assert lacking(LIMIT, limit_verdicts=few) == "the run has too few sizes"
 
 
@@ -409,7 +406,7 @@ def test_statements_are_judged_for_each_population_by_its_rows():
             "groups": ["mean_max_lepp", "sd_between", "mean_lepp"],
             "regressions": ["fitting", "model"],
             "analogous": ["part"],
-            "limit_verdicts": ["part"],
+            "limit_verdicts": ["reason"],
         }.items()
     }
     tables = {name: table_of(name, frame) for name, frame in empty.items()}
