@@ -3,25 +3,25 @@
 from collections.abc import Iterator
 
 from study.analysis.building import Study, builds
-from study.analysis.model_scores import PUBLISHED_UP_TO
-from study.analysis.parts import INTERIOR, PART, PARTS, WHOLE
+from study.analysis.parts import INTERIOR, PART, WHOLE
 from study.analysis.table import DISTRIBUTION, METHOD, Column, Declaration, Row, Table, end
+from study.analysis.trends import JUDGED_NOTE, STRUCK_OUT_NOTE, Trend, free_of_edge, trends
 from study.statistics.edge_limit import edge_limit
 from study.statistics.groups import Groups, NotEnough
 from study.statistics.limit_verdict import (
+    CONTRADICTION,
     GROWTH,
     LEVEL,
     LIMIT,
     NONE_FITS,
     ROUGH,
     SEVERAL,
-    judge,
+    LimitVerdict,
+    combined,
     limit_of,
-    per_decade,
 )
-from study.statistics.model_scores import lack_of_fit
-from study.statistics.models import CONSTANT, MODELS, THICKENING_EDGE
-from study.statistics.size_means import SizeMeans
+from study.statistics.models import MODELS, THICKENING_EDGE
+from study.statistics.power_family import ProfileInterval
 from study.statistics.thresholds import (
     CLEAR_AIC,
     LEVEL_PER_DECADE,
@@ -30,10 +30,8 @@ from study.statistics.thresholds import (
     SIGNIFICANCE,
 )
 from study.statistics.thresholds import LEVEL as OF_INTERVALS
-from study.statistics.verdicts import UNDECIDED, yes
+from study.statistics.verdicts import UNDECIDED, YES, yes
 
-#: Sizes that it takes to call the interior level.
-_LEAST_LEVEL = 3
 #: Reason of a verdict for which the run has too few sizes.
 FEW = "the run has too few sizes"
 REASONS = {
@@ -43,7 +41,13 @@ REASONS = {
     ROUGH: "no change is seen, but one that counts is not excluded",
     SEVERAL: "models with and without a limit survive",
     NONE_FITS: "no model follows the means",
+    CONTRADICTION: "the whole mesh and its interior contradict each other",
 }
+#: Why there is one verdict for both parts.
+ONE_LIMIT = (
+    "The whole mesh and its interior must have one limit, because the edge's share of the "
+    "triangles tends to 0"
+)
 
 LIMIT_VERDICTS = Declaration(
     "limit_verdicts",
@@ -51,31 +55,55 @@ LIMIT_VERDICTS = Declaration(
     (
         METHOD,
         DISTRIBUTION,
-        PART,
         Column("has_limit", "Has a limit", "", "verdict"),
-        Column("reason", "Decided by"),
-        Column("survivors", "Models that survive"),
-        Column("per_decade", "Change with tenfold points", "triangles", "fixed4"),
-        Column("per_decade_low", f"{OF_INTERVALS} from", "triangles", "fixed4"),
-        Column("per_decade_high", f"{OF_INTERVALS} to", "triangles", "fixed4"),
-        Column("power", "Power", "", "fixed3"),
-        Column("power_low", f"{OF_INTERVALS} from", "", "fixed3"),
-        Column("power_high", f"{OF_INTERVALS} to", "", "fixed3"),
+        Column("reason", "Why"),
+        Column("decided_by", "Decided by"),
         Column("limit", "Limit", "triangles", "fixed4"),
         Column("limit_low", f"{OF_INTERVALS} from", "triangles", "fixed4"),
         Column("limit_high", f"{OF_INTERVALS} to", "triangles", "fixed4"),
+        Column("limit_from", "Limit of"),
     ),
-    note="A model is out if lack of fit or sizes not seen refute it with p below "
-    f"{REFUTED_BELOW}, or if its AIC is {CLEAR_AIC:g} above that of one that is not refuted. Yes: "
-    "a constant survives and the change with each tenfold number of points is surely no more than "
-    f"{LEVEL_PER_DECADE:g}; or a model with a limit survives and every one without is out, where "
-    f"c - a x^(-b) counts only if surely b > {-NEARLY_LOGARITHMIC:g}, for a lower power follows "
-    "ln ln n or the root of ln n, which have no limit, too well. No: growth without limit "
-    "survives, edge models are out, and the power of growth lambda = -b is surely above "
-    f"{NEARLY_LOGARITHMIC:g}: no limit is in sight, as far as the data reach. Undecided "
-    "otherwise. Surely means with all of the profile likelihood interval; an empty end "
-    "says that the data set none. The limit is that of the model with the lowest AIC, its interval "
-    "from the lowest end to the highest of all models with a limit that survive.",
+    note=f"{ONE_LIMIT}. Yes or no: the whole or the interior says so, and the other does not say "
+    "the opposite; where both say yes, the intervals of their limits overlap. Undecided otherwise. "
+    "The limit is the mean of the interior where that is level, else that of the whole mesh, and "
+    "of the interior if only that has one. All of it is among the models that are tried here.",
+)
+
+LIMIT_EVIDENCE = Declaration(
+    "limit_evidence",
+    "What the whole mesh and its interior say of a limit",
+    (
+        METHOD,
+        DISTRIBUTION,
+        PART,
+        Column("has_limit", "Has a limit", "", "verdict"),
+        Column("reason", "Why"),
+        Column("sizes", "Sizes", "", "int"),
+        Column("smallest", "Smallest", "points", "int"),
+        Column("survivors", "Models that survive"),
+        Column("struck_out", "Struck out by the interior"),
+        Column("per_decade", "Change with tenfold points", "triangles", "fixed4"),
+        Column("per_decade_low", f"Change, {OF_INTERVALS} from", "triangles", "fixed4"),
+        Column("per_decade_high", f"Change, {OF_INTERVALS} to", "triangles", "fixed4"),
+        Column("power", "Power of growth", "", "fixed3"),
+        Column("power_low", f"Power, {OF_INTERVALS} from", "", "fixed3"),
+        Column("power_high", f"Power, {OF_INTERVALS} to", "", "fixed3"),
+        Column("limit", "Limit", "triangles", "fixed4"),
+        Column("limit_low", f"Limit, {OF_INTERVALS} from", "triangles", "fixed4"),
+        Column("limit_high", f"Limit, {OF_INTERVALS} to", "triangles", "fixed4"),
+    ),
+    note=f"{JUDGED_NOTE} A model is out if lack of fit or sizes not seen refute it with p below "
+    f"{REFUTED_BELOW} divided by the number of trends judged; if {STRUCK_OUT_NOTE}; or if its AIC "
+    f"is {CLEAR_AIC:g} above that of one that is neither. Yes: a constant survives and the change "
+    f"with each tenfold number of points is surely no more than {LEVEL_PER_DECADE:g}; or a model "
+    "with a limit survives and every one without is out, where the power model c + a x^q counts "
+    f"as one only if surely q < {NEARLY_LOGARITHMIC:g}, for a q nearer to 0 follows ln ln n or the "
+    "root of ln n, which have no limit, too well. No: growth without limit survives, edge models "
+    f"are out, and q is surely above {NEARLY_LOGARITHMIC:g}: no limit is in sight, as far as the "
+    "data reach. Undecided otherwise. Surely means with all of the profile likelihood interval; an "
+    "empty end says that the data set none. The power of growth is q. The limit is that of the "
+    "model with the lowest AIC, its interval from the lowest end to the highest of all models with "
+    "a limit that survive.",
 )
 
 LIMITS = Declaration(
@@ -105,6 +133,7 @@ EDGE_LIMITS = Declaration(
         DISTRIBUTION,
         Column("limit", "Limit of the whole", "triangles", "fixed4"),
         Column("interior", "Mean of the interior", "triangles", "fixed4"),
+        Column("level", "Interior is level", "", "verdict"),
         Column("difference", "Difference", "triangles", "fixed4"),
         Column("standard_error", "Standard error", "triangles", "g2"),
         Column("t", "Difference", "standard errors", "fixed2"),
@@ -112,96 +141,117 @@ EDGE_LIMITS = Declaration(
         Column("agrees", "Agrees", "", "verdict"),
     ),
     note=f"The limit c of the model {THICKENING_EDGE.formula} of the whole mesh, against the "
-    "weighted mean of the interior over the larger half of the sizes; only where that is level: a "
-    "constant is not refuted, and the interval of its change with the number of points has 0 in "
-    "it. Both are of the same triangulations, and the standard error counts what they share. "
-    "Agrees: p of at "
-    f"least {SIGNIFICANCE}.",
+    "weighted mean of the interior over the sizes where it is free of the edge, or over the larger "
+    "half of the sizes if those are too few. Level: a constant survives. Only a level mean is a "
+    "limit; of any other, the difference says little. Both are of the same triangulations, and "
+    f"the standard error counts what they share. Agrees: p of at least {SIGNIFICANCE}.",
 )
 
 
-@builds(LIMIT_VERDICTS, LIMITS, EDGE_LIMITS)
+@builds(LIMIT_VERDICTS, LIMIT_EVIDENCE, LIMITS, EDGE_LIMITS)
 def limits(study: Study) -> Iterator[Table]:
-    """Judge every method, distribution and part."""
-    yield LIMIT_VERDICTS.table(_verdicts(study))
-    yield LIMITS.table(_limits(study))
-    yield EDGE_LIMITS.table(_edge_limits(study))
+    """Judge every method and distribution, and its parts."""
+    judged = {_place(trend.key): (trend, trend.verdict) for trend in trends(study.data)}
+    verdicts = {place: verdict for place, (_, verdict) in judged.items()}
+    yield LIMIT_VERDICTS.table(
+        {"method": method, "distribution": distribution}
+        | _verdict(
+            verdicts.get((method, distribution, WHOLE)),
+            verdicts.get((method, distribution, INTERIOR)),
+        )
+        for method, distribution in study.data.populations
+    )
+    yield LIMIT_EVIDENCE.table(
+        trend.key | _evidence(trend, found) for trend, found in judged.values()
+    )
+    yield LIMITS.table(row for trend, _ in judged.values() for row in _limits(trend))
+    levels = {place for place, (trend, _) in judged.items() if trend.level is not None}
+    yield EDGE_LIMITS.table(_edge_limits(study, levels))
 
 
-def _means(study: Study) -> Iterator[tuple[Row, SizeMeans | None]]:
-    for method, distribution in study.data.populations:
-        for part in PARTS:
-            key: Row = {"method": method, "distribution": distribution, "part": part}
-            try:
-                yield key, SizeMeans.of(study.data.groups(method, distribution, part))
-            except NotEnough:
-                yield key, None
+def _place(key: Row) -> tuple[object, ...]:
+    return key["method"], key["distribution"], key["part"]
 
 
-def _verdicts(study: Study) -> Iterator[Row]:
-    for key, means in _means(study):
-        yield key | (_verdict(means) if means is not None else _too_few())
+def _interval(name: str, interval: ProfileInterval | None) -> Row:
+    if interval is None:
+        return {}
+    return {
+        name: interval.estimate,
+        f"{name}_low": end(interval.low),
+        f"{name}_high": end(interval.high),
+    }
 
 
-def _too_few() -> Row:
-    return {"has_limit": UNDECIDED, "reason": FEW}
+def _verdict(whole: LimitVerdict | None, interior: LimitVerdict | None) -> Row:
+    if whole is None and interior is None:
+        return {"has_limit": UNDECIDED, "reason": FEW}
+    found = combined(whole, interior)
+    parts = {WHOLE: whole, INTERIOR: interior}
+    row: Row = {
+        "has_limit": found.verdict,
+        "reason": REASONS[found.reason],
+        "decided_by": " and ".join(
+            name for name, part in parts.items() if any(part is one for one in found.decided_by)
+        ),
+    }
+    if found.verdict == YES:
+        row["limit_from"] = next(n for n, part in parts.items() if part is found.decided_by[0])
+    return row | _interval("limit", found.limit)
 
 
-def _verdict(means: SizeMeans) -> Row:
-    try:
-        found = judge(means, PUBLISHED_UP_TO)
-    except NotEnough:
-        return _too_few()
+def _evidence(trend: Trend, found: LimitVerdict | None) -> Row:
+    sizes: Row = {"sizes": len(trend.means), "smallest": int(trend.means.n_points[0])}
+    if found is None:
+        return {"has_limit": UNDECIDED, "reason": FEW} | sizes
     row: Row = {
         "has_limit": found.verdict,
         "reason": REASONS[found.reason],
         "survivors": ", ".join(one.model.name for one in found.survivors),
+        "struck_out": ", ".join(
+            one.model.name for one in trend.candidates if one.struck_out and not one.refuted
+        ),
     }
-    for name, interval in (
-        ("per_decade", found.per_decade), ("power", found.power), ("limit", found.limit),
-    ):  # fmt: skip
-        if interval is not None:
-            row |= {
-                name: interval.estimate,
-                f"{name}_low": end(interval.low),
-                f"{name}_high": end(interval.high),
+    return (
+        row
+        | sizes
+        | _interval("per_decade", found.per_decade)
+        | _interval("power", found.power)
+        | _interval("limit", found.limit)
+    )
+
+
+def _limits(trend: Trend) -> Iterator[Row]:
+    for model in MODELS:
+        if model.has_limit and len(trend.means) > len(model.terms):
+            try:
+                found = limit_of(model, trend.means)
+            except NotEnough:  # no saturation: the note says so
+                continue
+            yield trend.key | {
+                "model": model.name,
+                "value": found.estimate,
+                "low": end(found.low),
+                "high": end(found.high),
             }
-    return row
 
 
-def _limits(study: Study) -> Iterator[Row]:
-    for key, means in _means(study):
-        if means is None:
-            continue
-        for model in MODELS:
-            if model.has_limit and len(means) > len(model.terms):
-                try:
-                    found = limit_of(model, means)
-                except NotEnough:  # no saturation: the note says so
-                    continue
-                yield key | {
-                    "model": model.name,
-                    "value": found.estimate,
-                    "low": end(found.low),
-                    "high": end(found.high),
-                }
-
-
-def _edge_limits(study: Study) -> Iterator[Row]:
+def _edge_limits(study: Study, levels: set[tuple[object, ...]]) -> Iterator[Row]:
     for method, distribution in study.data.populations:
         whole = study.data.groups(method, distribution, WHOLE)
-        interior = _larger_half(study.data.groups(method, distribution, INTERIOR))
+        interior = free_of_edge(study.data, method, distribution) or _larger_half(
+            study.data.groups(method, distribution, INTERIOR)
+        )
         try:
-            if not _is_level(SizeMeans.of(interior)):
-                continue
             found = edge_limit(THICKENING_EDGE, whole, interior)
-        except NotEnough:  # the note says when there is one
+        except NotEnough:  # too small a run
             continue
         yield {
             "method": method,
             "distribution": distribution,
             "limit": found.limit,
             "interior": found.interior,
+            "level": yes((method, distribution, WHOLE) in levels),
             "difference": found.difference,
             "standard_error": found.standard_error,
             "t": found.t,
@@ -213,10 +263,3 @@ def _edge_limits(study: Study) -> Iterator[Row]:
 def _larger_half(groups: Groups) -> Groups:
     half = len(groups) // 2
     return Groups(groups.n_points[half:], groups.values[half:])
-
-
-def _is_level(means: SizeMeans) -> bool:
-    if len(means) < _LEAST_LEVEL:
-        return False
-    decade = per_decade(means)
-    return lack_of_fit(CONSTANT, means).p >= REFUTED_BELOW and decade.low <= 0 <= decade.high

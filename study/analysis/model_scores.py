@@ -1,32 +1,22 @@
 """Which model survives: how each fits all sizes, predicts those not seen, and what it projects."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
 from study.analysis.building import Study, builds
-from study.analysis.parts import PART, PARTS
+from study.analysis.parts import PART
 from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Declaration, Row, Table
-from study.paper import published
-from study.statistics.groups import NotEnough
-from study.statistics.limit_verdict import (
-    LEAST_FITTED,
-    Candidate,
-    candidates,
-    survivors_of,
-)
-from study.statistics.model_scores import predictions, sizes_to_fit, value_interval
+from study.analysis.trends import JUDGED_NOTE, PUBLISHED_UP_TO, STRUCK_OUT_NOTE, Trend, trends
+from study.statistics.limit_verdict import Candidate, survivors_of
+from study.statistics.model_scores import predictions, value_interval
 from study.statistics.models import SATURATING, LinearModel
 from study.statistics.power_family import ProfileInterval
-from study.statistics.size_means import SizeMeans
 from study.statistics.thresholds import CLEAR_AIC, LEVEL, REFUTED_BELOW
 from study.statistics.verdicts import NO, YES
 
-#: The largest published number of points: models are fitted up to here before they predict.
-PUBLISHED_UP_TO = max(published.sizes())
 #: What becomes of a model.
-SURVIVES, BEHIND, REFUTED = "survives", "behind", "refuted"
+SURVIVES, BEHIND, REFUTED, STRUCK_OUT = "survives", "behind", "refuted", "struck out"
 #: Where models that survive are asked for projections, in points.
 _FAR = tuple(10**power for power in range(6, 10))
 
@@ -51,19 +41,22 @@ MODEL_SCORES = Declaration(
         Column("fit_chi2", "Chi-squared, all sizes", "", "fixed1"),
         Column("fit_df", "Df, all sizes", "", "int"),
         Column("fit_p", "p, all sizes", "", "p"),
+        Column("refuted_below", "Refuted below p", "", "g2"),
         Column("delta_aic", "AIC above the lowest", "", "fixed1"),
         Column("akaike_weight", "Akaike weight", "", "percent1"),
-        Column("standing", "Model"),
+        Column("standing", "Verdict"),
     ),
     note="Weighted fits to the means of the sizes; variances are a smooth function of the number "
-    f"of points and count as known. A model is fitted to the sizes up to {PUBLISHED_UP_TO:,} "
-    "points, the paper's range, and predicts the others; where there are none, or too few to fit, "
-    "the largest quarter is predicted from the rest. Chi-squared of the prediction has the errors "
-    "of the means and, with all covariances, those of the fit; both are held against F with the "
-    f"degrees of freedom of the pure error. Refuted: one p below {REFUTED_BELOW}. Behind: its "
-    f"AIC of the fit to all sizes is more than {CLEAR_AIC:g} above that of a model that is not "
-    "refuted. The logistic model's limit of 4 is supposed, and a parabola turns round: these two "
-    "say nothing of a limit. The constant is the others with no slope.",
+    f"of points and count as known. {JUDGED_NOTE} A model is fitted to the sizes up to "
+    f"{PUBLISHED_UP_TO:,} points, the paper's range, and predicts the others; where there are "
+    "none, or too few to fit, the largest quarter is predicted from the rest. Chi-squared of the "
+    "prediction has the errors of the means and, with all covariances, those of the fit; both are "
+    "held against F with the degrees of freedom of the pure error. Refuted: one p below "
+    f"{REFUTED_BELOW} divided by the number of trends that this run judges, those of every "
+    f"distribution, triangulation and part (Bonferroni). Struck out: {STRUCK_OUT_NOTE}. Behind: "
+    f"the AIC of the fit to all sizes is more than {CLEAR_AIC:g} above that of a model that is "
+    "neither. The logistic model's limit of 4 is supposed, and a parabola turns round: these two "
+    "say nothing of a limit, and have a dash for it. The constant is the others with no slope.",
 )
 
 PREDICTIONS = Declaration(
@@ -96,42 +89,20 @@ PROJECTIONS = Declaration(
         Column("low", f"{LEVEL} from", "triangles", "fixed4"),
         Column("high", f"{LEVEL} to", "triangles", "fixed4"),
     ),
-    note="Extrapolation: no data are there. Only of models that survive, fitted to all sizes. "
+    note="Extrapolation: no data are there. Only of models that survive and say whether there is a "
+    "limit, fitted to all sizes. "
     "The intervals hold only if the model is true; those of the power models are by profile "
     "likelihood over all powers.",
 )
 
 
-@dataclass(frozen=True)
-class Trend:
-    """The means of one method, distribution and part, and the models held against them."""
-
-    key: Row
-    means: SizeMeans
-    fitted: np.ndarray
-    candidates: tuple[Candidate, ...]
-
-
 @builds(MODEL_SCORES, PREDICTIONS, PROJECTIONS)
 def model_scores(study: Study) -> Iterator[Table]:
     """Score every model on every method, distribution and part."""
-    trends = list(_trends(study))
-    yield MODEL_SCORES.table(row for trend in trends for row in _scores(trend))
-    yield PREDICTIONS.table(row for trend in trends for row in _predictions(trend))
-    yield PROJECTIONS.table(row for trend in trends for row in _projections(trend))
-
-
-def _trends(study: Study) -> Iterator[Trend]:
-    for method, distribution in study.data.populations:
-        for part in PARTS:
-            groups = study.data.groups(method, distribution, part)
-            key: Row = {"method": method, "distribution": distribution, "part": part}
-            try:
-                means = SizeMeans.of(groups)
-            except NotEnough:  # told of the regressions
-                continue
-            fitted = sizes_to_fit(means.n_points, PUBLISHED_UP_TO, LEAST_FITTED)
-            yield Trend(key, means, fitted, candidates(means, fitted))
+    judged = list(trends(study.data))
+    yield MODEL_SCORES.table(row for trend in judged for row in _scores(trend))
+    yield PREDICTIONS.table(row for trend in judged for row in _predictions(trend))
+    yield PROJECTIONS.table(row for trend in judged for row in _projections(trend))
 
 
 def _scores(trend: Trend) -> Iterator[Row]:
@@ -143,7 +114,7 @@ def _scores(trend: Trend) -> Iterator[Row]:
         yield trend.key | {
             "model": one.model.name,
             "formula": one.model.formula,
-            "has_limit": {True: YES, False: NO, None: ""}[one.model.has_limit],
+            "has_limit": {True: YES, False: NO, None: "–"}[one.model.has_limit],
             "fitted_up_to": int(trend.means.n_points[trend.fitted].max()),
             "predicted": one.prediction.df,
             "prediction_chi2": one.prediction.chi_squared,
@@ -153,6 +124,7 @@ def _scores(trend: Trend) -> Iterator[Row]:
             "fit_chi2": one.fit.chi_squared,
             "fit_df": one.fit.df,
             "fit_p": one.fit.p,
+            "refuted_below": one.refuted_below,
             "delta_aic": one.aic - lowest,
             "akaike_weight": np.exp((lowest - one.aic) / 2) / total,
             "standing": _standing(one, surviving),
@@ -162,6 +134,8 @@ def _scores(trend: Trend) -> Iterator[Row]:
 def _standing(one: Candidate, surviving: set[str]) -> str:
     if one.refuted:
         return REFUTED
+    if one.struck_out:
+        return STRUCK_OUT
     return SURVIVES if one.model.name in surviving else BEHIND
 
 
@@ -183,6 +157,8 @@ def _predictions(trend: Trend) -> Iterator[Row]:
 
 def _projections(trend: Trend) -> Iterator[Row]:
     for one in survivors_of(trend.candidates):
+        if one.model.has_limit is None:
+            continue  # what it supposes or cannot follow far away
         if not isinstance(one.model, LinearModel) and one.model is not SATURATING:
             continue  # the saturating model's intervals have all powers
         for n in _FAR:

@@ -7,7 +7,7 @@ import pandas as pd
 
 from lepp import INTERIOR_LAYER
 from study.analysis.building import Population, Study, rows_by_population, rows_of
-from study.analysis.parts import INTERIOR, INTERIOR_NOTE, PART, PARTS
+from study.analysis.parts import INTERIOR, INTERIOR_NOTE, PART, PARTS, interior_shares
 from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Declaration, Row
 from study.statistics.groups import NotEnough
 from study.statistics.homogeneity import homogeneity
@@ -111,7 +111,11 @@ def part_means(one: Population) -> Iterator[Row]:
     """Mean of the triangulations' means, for the whole and the interior."""
     for part in PARTS:
         groups = one.data.groups(one.method, one.distribution, part)
-        shares = _interior_shares(one) if part == INTERIOR else None
+        shares = (
+            interior_shares(one.data.by_layer(one.method, one.distribution))
+            if part == INTERIOR
+            else None
+        )
         for n, values in zip(groups.n_points, groups.values, strict=True):
             mean, low, high = mean_interval(values)
             yield {
@@ -123,12 +127,6 @@ def part_means(one: Population) -> Iterator[Row]:
                 "low": low,
                 "high": high,
             }
-
-
-def _interior_shares(one: Population) -> pd.Series:
-    rows = one.data.by_layer(one.method, one.distribution)
-    inside = rows[rows["layer"] == INTERIOR_LAYER]
-    return inside.groupby("n_points")["count"].sum() / rows.groupby("n_points")["count"].sum()
 
 
 @rows_by_population(LAYER_MEANS, "means of the layers")

@@ -1,5 +1,7 @@
 """Parts of a mesh: the whole, and the interior, which the edge does not reach."""
 
+import pandas as pd
+
 from lepp import INTERIOR_LAYER
 from study.analysis.table import Column
 
@@ -12,3 +14,20 @@ INTERIOR_NOTE = (
     f"The interior is all triangles that are {INTERIOR_LAYER} or more steps across edges away from "
     "a triangle at the hull."
 )
+
+
+def interior_shares(by_layer: pd.DataFrame) -> pd.Series:
+    """Share of all triangles of each number of points that the interior has.
+
+    Parameters
+    ----------
+    by_layer : pandas.DataFrame
+        n_points, layer, count.
+
+    Returns
+    -------
+    pandas.Series
+        By n_points; NaN where no mesh has an interior.
+    """
+    inside = by_layer[by_layer["layer"] == INTERIOR_LAYER]
+    return inside.groupby("n_points")["count"].sum() / by_layer.groupby("n_points")["count"].sum()

@@ -10,8 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from study.analysis.building import Study, builds
-from study.analysis.model_scores import PUBLISHED_UP_TO
-from study.analysis.parts import INTERIOR, PART, PARTS, WHOLE
+from study.analysis.parts import INTERIOR, PART, WHOLE
 from study.analysis.table import (
     DISTRIBUTION,
     METHOD,
@@ -22,6 +21,7 @@ from study.analysis.table import (
     Table,
     end,
 )
+from study.analysis.trends import Trend, trends
 from study.statistics.fitting import (
     Fit,
     Observations,
@@ -30,18 +30,17 @@ from study.statistics.fitting import (
     leave_one_group_out,
 )
 from study.statistics.groups import NotEnough
-from study.statistics.limit_verdict import LEAST_FITTED
-from study.statistics.model_scores import predict, sizes_to_fit
+from study.statistics.limit_verdict import survivors_of
+from study.statistics.model_scores import predict
 from study.statistics.models import (
     DOUBLY_LOGARITHMIC,
-    EDGE,
     EDGE_MODELS,
-    LINEAR,
     LINEAR_MODELS,
     LOGARITHMIC,
+    MODELS,
     SATURATING,
-    THICKENING_EDGE,
     LinearModel,
+    Model,
     SaturatingModel,
 )
 from study.statistics.power_family import PowerFamily
@@ -56,10 +55,9 @@ FITTED = (
     (WEIGHTED, WHOLE, _ALL),
     (WEIGHTED, INTERIOR, _ALL),
 )
-#: The models whose curves are drawn; a straight line and the logistic model are one to the eye.
-DRAWN = (LOGARITHMIC, SATURATING, THICKENING_EDGE, EDGE, LINEAR)
-#: The curves of the fits to all sizes, and of those to the sizes from which others are predicted.
-ALL_SIZES, PREDICTION = "all sizes", "prediction"
+#: The curves of the weighted fits to the sizes from which others are predicted; those of the
+#: paper's models by least squares have `LEAST_SQUARES`.
+PREDICTION = "prediction"
 #: Curves are drawn so far beyond the largest size, and by so many points.
 _BEYOND, _CURVE_POINTS = 10, 31
 
@@ -77,7 +75,7 @@ REGRESSIONS = Declaration(
         _FITTING,
         Column("formula", "Formula, x in thousands of points"),
         Column("observations", "Observations", "triangulations", "int"),
-        Column("adj_r2", "Adjusted R squared", "", "fixed3"),
+        Column("adj_r2", "Adjusted R²", "", "fixed3"),
         Column("f", "F", "", "fixed1"),
         Column("df_model", "Df, model", "", "int"),
         Column("df_residual", "Df, residuals", "", "int"),
@@ -92,13 +90,14 @@ REGRESSIONS = Declaration(
     ),
     note="One observation a triangulation; weights are reciprocal variances, which are a smooth "
     "function of the number of points. The logistic model is a straight line for ln(y / (4 - y)), "
-    "as the published coefficients and R squared are; its adjusted R squared, F and p are on that "
+    "as the published coefficients and R² are; its adjusted R², F and p are on that "
     "scale. AIC, BIC and both errors are on the scale of y for all models, "
     "and so comparable: AIC and BIC among the fits of the same observations. Weights "
     "count as known variances. Lack of fit compares the model's residuals with the spread "
     "inside the groups: a small p says that the model does not follow the groups' means. The "
     "left-out error is that of a group's mean predicted from all other groups. F and p of the "
-    "saturating model are those of its linearisation.",
+    "saturating model are those of its linearisation. A table on the page may leave some of these "
+    "columns out; its CSV file has them all.",
 )
 
 COEFFICIENTS = Declaration(
@@ -134,8 +133,9 @@ CURVES = Declaration(
         N_POINTS,
         Column("prediction", "Mean LEPP", "triangles", "fixed4"),
     ),
-    note="Curves of the weighted fits: to all sizes, and to those from which the others are "
-    "predicted.",
+    note="Least squares: the paper's four models, fitted to all sizes. Prediction: weighted fits "
+    "of the models that survive and of the logarithmic one, to the sizes from which the others "
+    "are predicted.",
 )
 
 
@@ -250,26 +250,38 @@ def _saturating_coefficients(key: Key, fit: Fit) -> Iterator[Row]:
 
 
 def _curves(study: Study) -> Iterator[Row]:
-    """Points of the curves: of fits to all sizes, and to those that predict the others."""
-    for method, distribution in study.data.populations:
-        for part in PARTS:
-            key: Row = {"method": method, "distribution": distribution, "part": part}
-            try:
-                means = SizeMeans.of(study.data.groups(method, distribution, part))
-            except NotEnough:
-                continue
-            fitted = sizes_to_fit(means.n_points, PUBLISHED_UP_TO, LEAST_FITTED)
-            views = {ALL_SIZES: means, PREDICTION: means.where(fitted)}
-            for view, seen in views.items():
-                for row in _points(seen, means.n_points):
-                    yield key | {"view": view} | row
+    """Points of the curves: of the paper's fits to all sizes, and of those that predict."""
+    for trend in trends(study.data):
+        seen = trend.means.where(trend.fitted)
+        models = {one.model.name: one.model for one in survivors_of(trend.candidates)}
+        models |= {LOGARITHMIC.name: LOGARITHMIC}
+        for model in MODELS:
+            if model.name in models and len(seen) > len(model.terms):
+                for n in _abscissae(trend):
+                    yield _point(trend, model, PREDICTION, n, predict(model, seen, n / 1000))
+        if trend.key["part"] == WHOLE:
+            yield from _least_squares_curves(study, trend)
 
 
-def _points(seen: SizeMeans, n_points: np.ndarray) -> Iterator[Row]:
+def _least_squares_curves(study: Study, trend: Trend) -> Iterator[Row]:
+    groups = study.data.groups(str(trend.key["method"]), str(trend.key["distribution"]))
+    for model in LINEAR_MODELS:
+        try:
+            fit = fit_linear(model, Observations.of(groups, weighted=False))
+        except NotEnough:  # told of the fits
+            continue
+        at = _abscissae(trend)
+        for n, value in zip(at, fit.predict(at / 1000), strict=True):
+            yield _point(trend, model, LEAST_SQUARES, n, value)
+
+
+def _point(trend: Trend, model: Model, view: str, n: float, value: float) -> Row:
+    return trend.key | {
+        "view": view, "model": model.name, "n_points": int(n), "prediction": float(value),
+    }  # fmt: skip
+
+
+def _abscissae(trend: Trend) -> np.ndarray:
+    n_points = trend.means.n_points
     at = np.geomspace(n_points[0], _BEYOND * n_points[-1], _CURVE_POINTS).round()
-    at = np.union1d(at, n_points)
-    for model in DRAWN:
-        if len(seen) > len(model.terms):
-            for n in at:
-                value = predict(model, seen, n / 1000)
-                yield {"model": model.name, "n_points": int(n), "prediction": value}
+    return np.union1d(at, n_points)

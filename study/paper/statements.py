@@ -277,7 +277,7 @@ def _compared(row: pd.Series) -> list[str]:
 
 
 def _limit(of: _Tables) -> Judged:
-    row = of.rows(LIMIT_VERDICTS, part=WHOLE).first
+    row = of.rows(LIMIT_VERDICTS).first
     if row["reason"] == FEW:
         raise NotEnough(FEW)
     if row["has_limit"] != YES or pd.isna(row["limit"]):

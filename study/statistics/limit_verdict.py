@@ -14,7 +14,11 @@ those that are not, some have a limit and some have none. What then is said:
   finite data can say;
 - *undecided* otherwise.
 
-A model is out if it is refuted, or if its AIC is `CLEAR_AIC` above that of one that is not.
+A model is out if it is refuted, if it has another limit than a level mean that must have the same,
+or if its AIC is `CLEAR_AIC` above that of one that is neither.
+
+The whole mesh and its interior must have one limit: the edge's share of the triangles tends to 0.
+`combined` is the verdict of both.
 """
 
 from collections.abc import Iterable
@@ -50,11 +54,13 @@ from study.statistics.thresholds import (
 from study.statistics.verdicts import NO, UNDECIDED, YES
 
 #: Sizes that a verdict needs; so many of them are fitted to, at the least.
-LEAST_SIZES, LEAST_FITTED = 6, 4
+LEAST_SIZES, LEAST_FITTED = 5, 4
 
 #: What decides.
 LEVEL, LIMIT, GROWTH = "level", "limit", "growth"
 ROUGH, SEVERAL, NONE_FITS = "rough", "several", "none fits"
+#: What else may decide of two parts that must have one limit.
+CONTRADICTION = "contradiction"
 
 
 @dataclass(frozen=True)
@@ -67,17 +73,23 @@ class Candidate:
     fit, prediction : Score
     aic : float
         With the variances known, up to what all models have in common.
+    refuted_below : float
+        The p of either score below which the model is refuted.
+    struck_out : bool
+        Whether its limit is not that of a level mean that must have the same.
     """
 
     model: Model
     fit: Score
     prediction: Score
     aic: float
+    refuted_below: float = REFUTED_BELOW
+    struck_out: bool = False
 
     @property
     def refuted(self) -> bool:
-        """By either."""
-        return min(self.fit.p, self.prediction.p) < REFUTED_BELOW
+        """By either score."""
+        return min(self.fit.p, self.prediction.p) < self.refuted_below
 
 
 @dataclass(frozen=True)
@@ -110,7 +122,32 @@ class LimitVerdict:
     limit: ProfileInterval | None = None
 
 
-def candidates(means: SizeMeans, fitted: np.ndarray) -> tuple[Candidate, ...]:
+@dataclass(frozen=True)
+class OneLimit:
+    """Whether two parts that must have one limit have it.
+
+    Attributes
+    ----------
+    verdict, reason : str
+        As of `LimitVerdict`; UNDECIDED also for CONTRADICTION: the parts say different things.
+    decided_by : tuple of LimitVerdict
+        Those that say yes or no where the verdict does.
+    limit : ProfileInterval or None
+        The one that is stated, if the verdict is yes.
+    """
+
+    verdict: str
+    reason: str
+    decided_by: tuple[LimitVerdict, ...] = ()
+    limit: ProfileInterval | None = None
+
+
+def candidates(
+    means: SizeMeans,
+    fitted: np.ndarray,
+    refuted_below: float = REFUTED_BELOW,
+    level: ProfileInterval | None = None,
+) -> tuple[Candidate, ...]:
     """Score every model that the sizes suffice for.
 
     Parameters
@@ -118,6 +155,10 @@ def candidates(means: SizeMeans, fitted: np.ndarray) -> tuple[Candidate, ...]:
     means : SizeMeans
     fitted : (g,) bool ndarray
         Which sizes models are fitted to before they predict the others.
+    refuted_below : float
+        `REFUTED_BELOW`, divided by the number of trends that are judged (Bonferroni).
+    level : ProfileInterval, optional
+        `level_mean` of a part that must have the same limit.
     """
     scored = []
     for model in MODELS:
@@ -127,11 +168,17 @@ def candidates(means: SizeMeans, fitted: np.ndarray) -> tuple[Candidate, ...]:
         except NotEnough:
             continue
         aic = fit.chi_squared + 2 * len(model.terms)
-        scored.append(Candidate(model, fit, prediction, aic))
+        struck_out = level is not None and _has_another_limit(model, means, level)
+        scored.append(Candidate(model, fit, prediction, aic, refuted_below, struck_out))
     return tuple(scored)
 
 
-def judge(means: SizeMeans, published_up_to: int) -> LimitVerdict:
+def judge(
+    means: SizeMeans,
+    published_up_to: int,
+    refuted_below: float = REFUTED_BELOW,
+    level: ProfileInterval | None = None,
+) -> LimitVerdict:
     """Say whether the mean has a limit.
 
     Parameters
@@ -139,6 +186,8 @@ def judge(means: SizeMeans, published_up_to: int) -> LimitVerdict:
     means : SizeMeans
     published_up_to : int
         Models are fitted to sizes up to this, before they predict the others.
+    refuted_below, level
+        As of `candidates`.
 
     Raises
     ------
@@ -148,12 +197,68 @@ def judge(means: SizeMeans, published_up_to: int) -> LimitVerdict:
     if len(means) < LEAST_SIZES:
         raise NotEnough(f"a verdict on the limit needs {LEAST_SIZES} sizes, not {len(means)}")
     fitted = sizes_to_fit(means.n_points, published_up_to, LEAST_FITTED)
-    survivors = survivors_of(candidates(means, fitted))
+    survivors = survivors_of(candidates(means, fitted, refuted_below, level))
     family = PowerFamily(means)
     decade = per_decade(means)
     verdict, reason = _verdict(survivors, family, decade)
     limit = _limit(means, survivors, reason) if verdict == YES else None
     return LimitVerdict(verdict, reason, survivors, family.power, decade, limit)
+
+
+def combined(whole: LimitVerdict | None, interior: LimitVerdict | None) -> OneLimit:
+    """Say whether the whole mesh and its interior have their one limit.
+
+    Parameters
+    ----------
+    whole, interior : LimitVerdict or None
+        None for too few sizes; not both.
+
+    Returns
+    -------
+    OneLimit
+        Yes or no if one part says so, and the other does not say the opposite; no two limits may
+        exclude each other. The limit that is stated is the interior's where it is level, else that
+        of the whole.
+    """
+    parts = [part for part in (whole, interior) if part is not None]
+    of_limits = sorted(
+        (part for part in parts if part.verdict == YES),
+        key=lambda part: part.reason != LEVEL or part is not interior,
+    )
+    growing = tuple(part for part in parts if part.verdict == NO)
+    limits = [part.limit for part in of_limits if part.limit is not None]
+    if (of_limits and growing) or (len(limits) == 2 and _apart(*limits)):
+        return OneLimit(UNDECIDED, CONTRADICTION)
+    if of_limits:
+        return OneLimit(YES, of_limits[0].reason, tuple(of_limits), limits[0])
+    if growing:
+        return OneLimit(NO, GROWTH, growing)
+    return OneLimit(UNDECIDED, parts[0].reason)
+
+
+def level_mean(
+    means: SizeMeans, published_up_to: int, refuted_below: float = REFUTED_BELOW
+) -> ProfileInterval | None:
+    """Give the mean that a limit has to be near, if a constant survives; None otherwise.
+
+    Its interval is wider by the most that a tenfold number of points may change the mean, unseen.
+
+    Parameters
+    ----------
+    means, published_up_to, refuted_below
+        As of `judge`.
+
+    Raises
+    ------
+    NotEnough
+        As `judge`.
+    """
+    verdict = judge(means, published_up_to, refuted_below)
+    if CONSTANT not in [one.model for one in verdict.survivors]:
+        return None
+    mean, change = limit_of(CONSTANT, means), verdict.per_decade
+    unseen = max(-change.low, change.high)
+    return ProfileInterval(mean.estimate, mean.low - unseen, mean.high + unseen)
 
 
 def per_decade(means: SizeMeans) -> ProfileInterval:
@@ -208,11 +313,26 @@ def _limit(means: SizeMeans, survivors: tuple[Candidate, ...], reason: str) -> P
     )
 
 
+def _has_another_limit(model: Model, means: SizeMeans, level: ProfileInterval) -> bool:
+    if not model.has_limit:
+        return False
+    try:
+        return _apart(limit_of(model, means), level)
+    except NotEnough:  # the saturating model has no limit that can be seen
+        return False
+
+
+def _apart(one: ProfileInterval, other: ProfileInterval) -> bool:
+    return one.low > other.high or other.low > one.high
+
+
 def _scaled(interval: ProfileInterval, by: float) -> ProfileInterval:
     return ProfileInterval(interval.estimate * by, interval.low * by, interval.high * by)
 
 
 def survivors_of(scored: Iterable[Candidate]) -> tuple[Candidate, ...]:
     """Return the candidates that are not out, the lowest AIC first."""
-    left = sorted((one for one in scored if not one.refuted), key=lambda one: one.aic)
+    left = sorted(
+        (one for one in scored if not one.refuted and not one.struck_out), key=lambda one: one.aic
+    )
     return tuple(one for one in left if one.aic - left[0].aic <= CLEAR_AIC)

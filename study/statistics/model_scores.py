@@ -184,7 +184,8 @@ def predictions(model: Model, means: SizeMeans, fitted: np.ndarray) -> Iterator[
 def sizes_to_fit(n_points: np.ndarray, up_to: int, least: int) -> np.ndarray:
     """Which sizes models are fitted to: those up to a number of points.
 
-    Where none is beyond it, or fewer than `least` are not, all but the largest quarter.
+    Where none is beyond it, or fewer than `least` are not, all but the largest quarter, or but the
+    largest one if else there are fewer than `least`.
 
     Parameters
     ----------
@@ -198,7 +199,8 @@ def sizes_to_fit(n_points: np.ndarray, up_to: int, least: int) -> np.ndarray:
     """
     fitted = n_points <= up_to
     if fitted.all() or fitted.sum() < least:
-        fitted = np.arange(len(n_points)) < len(n_points) - -(-len(n_points) // 4)
+        unseen = max(min(-(-len(n_points) // 4), len(n_points) - least), 1)
+        fitted = np.arange(len(n_points)) < len(n_points) - unseen
     return fitted
 
 

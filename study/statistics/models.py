@@ -84,7 +84,7 @@ LINEAR_MODELS = (
     ),
     LinearModel(
         "logarithmic",
-        "c + d log2(x)",
+        "c + d log₂(x)",
         ("c", "d"),
         lambda x: np.column_stack([np.ones_like(x), np.log2(x)]),
         has_limit=False,

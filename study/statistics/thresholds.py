@@ -22,8 +22,11 @@ ROUGH_RATE = 0.05
 FEW_PATHS = 1_000
 #: A difference of AIC beyond which the worse model has next to no support.
 CLEAR_AIC = 10.0
-#: A p below which a model of growth is refuted: by its lack of fit, or by sizes it has not seen.
+#: A p below which a model of growth is refuted: by its lack of fit, or by sizes it has not seen. It
+#: is divided by the number of trends that a run has judged.
 REFUTED_BELOW = 0.01
+#: Share of the triangles from which on the interior of a mesh counts as free of the edge.
+FREE_OF_EDGE = 0.9
 #: A change of the mean with each tenfold number of points that is no more than this is none.
 LEVEL_PER_DECADE = 0.001
 #: Growth like x^lambda with lambda above this shows no limit: a tenfold number of points leaves

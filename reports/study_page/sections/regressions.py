@@ -3,6 +3,7 @@
 import pandas as pd
 
 from reports.page import style
+from reports.page.assembly import reference
 from reports.page.blocks import FigureBlock, Prose, Section, Subsection, TableBlock, per_view
 from reports.page.evidence import Evidence
 from reports.page.style import Spec
@@ -10,33 +11,44 @@ from reports.page.views import View
 from reports.study_page.tables import TABLE_4
 from reports.text.words import LEVEL
 from study.analysis.group_summaries import GROUPS
-from study.analysis.limits import EDGE_LIMITS, FEW, LIMIT_VERDICTS, LIMITS, REASONS
+from study.analysis.limits import (
+    EDGE_LIMITS,
+    FEW,
+    LIMIT_EVIDENCE,
+    LIMIT_VERDICTS,
+    LIMITS,
+    ONE_LIMIT,
+    REASONS,
+)
 from study.analysis.model_scores import (
     MODEL_SCORES,
     PREDICTIONS,
     PROJECTIONS,
-    PUBLISHED_UP_TO,
     REFUTED,
+    STRUCK_OUT,
     SURVIVES,
 )
 from study.analysis.part_means import PART_MEANS
 from study.analysis.parts import INTERIOR, WHOLE
 from study.analysis.regressions import (
-    ALL_SIZES,
     COEFFICIENTS,
     CURVES,
-    DRAWN,
     LEAST_SQUARES,
     PREDICTION,
     REGRESSIONS,
     WEIGHTED,
 )
+from study.analysis.trends import PUBLISHED_UP_TO
 from study.analysis.variance_analysis import ANOVA, WELCH
-from study.statistics.limit_verdict import GROWTH, LIMIT, NONE_FITS, ROUGH
+from study.statistics.limit_verdict import CONTRADICTION, NONE_FITS, ROUGH
 from study.statistics.limit_verdict import LEVEL as IS_LEVEL
+from study.statistics.models import LINEAR_MODELS, MODELS
 from study.statistics.thresholds import LEVEL_PER_DECADE, REFUTED_BELOW, SIGNIFICANCE
 from study.statistics.verdicts import NO, YES
 from study.text.numbers import count, listed, show, ten_to
+
+#: Whose mean a part's is.
+_MEAN_OF = {WHOLE: "the mean of the whole mesh", INTERIOR: "the mean of the interior"}
 
 
 def section(evidence: Evidence) -> Section:
@@ -72,6 +84,7 @@ def _predicted(evidence: Evidence) -> Subsection:
                     "prediction_log10_p",
                     "worst",
                     "fit_p",
+                    "refuted_below",
                     "delta_aic",
                     "akaike_weight",
                     "standing",
@@ -93,9 +106,27 @@ def _judged(evidence: Evidence) -> Subsection:
                 "The verdict for every distribution",
                 columns=(
                     "distribution",
-                    "part",
                     "has_limit",
                     "reason",
+                    "decided_by",
+                    "limit",
+                    "limit_low",
+                    "limit_high",
+                    "limit_from",
+                ),
+                follows=("method",),
+            ),
+            TableBlock(
+                LIMIT_EVIDENCE,
+                "What the whole mesh and its interior say",
+                columns=(
+                    "distribution",
+                    "part",
+                    "smallest",
+                    "has_limit",
+                    "reason",
+                    "survivors",
+                    "struck_out",
                     "limit",
                     "limit_low",
                     "limit_high",
@@ -103,6 +134,7 @@ def _judged(evidence: Evidence) -> Subsection:
                     "power_high",
                 ),
                 follows=("method",),
+                folded=True,
             ),
             TableBlock(LIMITS, "The limit of each model that has one", folded=True),
             TableBlock(
@@ -133,7 +165,11 @@ def _table_7(evidence: Evidence) -> Subsection:
         (
             Prose(per_view(evidence.views, lambda view: _of_paper(evidence, view))),
             _figure(
-                evidence, "figure-models", "The models fitted to all sizes", "Figure 6", ALL_SIZES
+                evidence,
+                "figure-models",
+                "The paper's models fitted to all sizes",
+                "Figure 6",
+                LEAST_SQUARES,
             ),
             TableBlock(
                 REGRESSIONS,
@@ -187,64 +223,89 @@ def trend_sentence(evidence: Evidence, view: View) -> str | None:
 
 
 def verdict_sentences(evidence: Evidence, view: View) -> list[str]:
-    """Say whether the mean has a limit, in the whole mesh and, if it says more, in the interior."""
-    verdicts = {part: evidence.one(LIMIT_VERDICTS, view, part=part) for part in (WHOLE, INTERIOR)}
-    sentences = []
-    whole, interior = verdicts[WHOLE], verdicts[INTERIOR]
-    if whole is not None and whole["reason"] != FEW:
-        sentences.append(f"{_verdict(whole, evidence, view, 'it')}.")
-    if interior is not None and interior["reason"] != FEW:
-        sentences.append(f"{_verdict(interior, evidence, view, 'the mean of the interior')}.")
-    return sentences
+    """Say whether the mean has a limit: one verdict of the whole mesh and its interior."""
+    row = evidence.one(LIMIT_VERDICTS, view)
+    if row is None or row["reason"] == FEW:
+        return []
+    if row["has_limit"] == YES:
+        return [_has_limit(row, evidence, view)]
+    if row["has_limit"] == NO:
+        return [_grows(row, evidence, view)]
+    return [f"Whether it has a limit stays undecided: {_open(row, evidence, view)}."]
 
 
-def _verdict(row: pd.Series, evidence: Evidence, view: View, it: str) -> str:
-    """Say one verdict, without the full stop."""
-    opening = f"{it[0].upper()}{it[1:]}"
+def _part(evidence: Evidence, view: View, part: str) -> pd.Series:
+    return evidence.rows(LIMIT_EVIDENCE, view, part=part).first
+
+
+def _has_limit(row: pd.Series, evidence: Evidence, view: View) -> str:
+    limit = (
+        f"{show(row['limit'], 'fixed4')} ({LEVEL} from {show(row['limit_low'], 'fixed4')} to "
+        f"{show(row['limit_high'], 'fixed4')})"
+    )
+    of = row["limit_from"]
+    if row["reason"] == REASONS[IS_LEVEL]:
+        return (
+            f"It has a limit: {_MEAN_OF[of]} is level, for it changes by no more than "
+            f"{show(LEVEL_PER_DECADE, 'g1')} with each tenfold number of points from "
+            f"{_part(evidence, view, of)['smallest']:,} on; the limit is {limit}."
+        )
+    scores = evidence.rows(MODEL_SCORES, view, part=of, standing=SURVIVES).frame
+    with_limit = scores[scores["has_limit"] == YES]
+    tried = count(len(evidence.rows(MODEL_SCORES, view, part=of)), "model")
+    whose = "" if of == WHOLE else " for the interior"
+    return (
+        f"It has a limit, among the {tried} tried: all that have none are out{whose}, and "
+        f"{_with_p(with_limit)}. The limit is {limit}."
+    )
+
+
+def _with_p(scores: pd.DataFrame) -> str:
+    """Name models that survive, with the p of what they survive."""
+    names = [
+        f"{row.model} (p\u00a0=\u00a0{show(row.fit_p, 'p')} for the fit to all sizes, "
+        f"{show(row.prediction_p, 'p')} for sizes not seen)"
+        for row in scores.itertuples()
+    ]
+    return f"the {_models(names)}"
+
+
+def _grows(row: pd.Series, evidence: Evidence, view: View) -> str:
+    part = WHOLE if WHOLE in row["decided_by"] else INTERIOR
+    grows = "grows" if _part(evidence, view, part)["per_decade"] > 0 else "falls"
+    it = "it" if part == WHOLE else _MEAN_OF[part]
+    return (
+        f"It has no limit in sight, among the models tried: {it} {grows} like a logarithm of the "
+        "number of points or faster."
+    )
+
+
+def _open(row: pd.Series, evidence: Evidence, view: View) -> str:
+    """Say why no verdict is had, without the full stop."""
     reason = row["reason"]
-    if reason == REASONS[IS_LEVEL]:
-        return (
-            f"{opening} is level: it changes by no more than {show(LEVEL_PER_DECADE, 'g1')} with "
-            f"each tenfold number of points, and is {show(row['limit'], 'fixed4')} ({LEVEL} from "
-            f"{show(row['limit_low'], 'fixed4')} to {show(row['limit_high'], 'fixed4')})"
-        )
-    if reason == REASONS[LIMIT]:
-        return (
-            f"{opening} has a limit: only models with one survive, and put it between "
-            f"{show(row['limit_low'], 'fixed4')} and {show(row['limit_high'], 'fixed4')} ({LEVEL})"
-        )
-    if reason == REASONS[GROWTH]:
-        grows = "grows" if row["per_decade"] > 0 else "falls"
-        return (
-            f"{opening} has no limit in sight: it {grows} like a logarithm of the number of points "
-            "or faster"
-        )
-    if reason == REASONS[ROUGH]:
-        per = f"{show(row['per_decade_low'], 'fixed4')} to {show(row['per_decade_high'], 'fixed4')}"
-        return (
-            f"Whether {it} has a limit stays undecided: no change is seen, but with each tenfold "
-            f"number of points it may be from {per}"
-        )
+    if reason == REASONS[CONTRADICTION]:
+        return "the whole mesh and its interior contradict each other"
     if reason == REASONS[NONE_FITS]:
-        return f"Whether {it} has a limit stays undecided: no model follows the means"
-    scores = evidence.rows(MODEL_SCORES, view, part=row["part"], standing=SURVIVES).frame
+        return "no model follows the means"
+    parts = evidence.rows(LIMIT_EVIDENCE, view, reason=reason)
+    part = parts.first
+    if reason == REASONS[ROUGH]:
+        per = (
+            f"{show(part['per_decade_low'], 'fixed4')} to {show(part['per_decade_high'], 'fixed4')}"
+        )
+        return f"no change is seen, but with each tenfold number of points it may be from {per}"
+    scores = evidence.rows(MODEL_SCORES, view, part=part["part"], standing=SURVIVES).frame
     with_limit, without = (
         scores["model"][scores["has_limit"] == word].tolist() for word in (YES, NO)
     )
     if not without:
         return (
-            f"Whether {it} has a limit stays undecided: the {_models(with_limit)}, but it may "
-            "follow a power that no one can tell from a logarithm"
+            f"the {_models(with_limit)}, but it may follow a power that no one can tell from a "
+            "logarithm"
         )
     if not with_limit:
-        return (
-            f"Whether {it} has a limit stays undecided: the {_models(without)}, but a power with "
-            "a limit is not excluded"
-        )
-    return (
-        f"Whether {it} has a limit stays undecided: with one, the {_models(with_limit)}; without, "
-        f"the {_models(without)}"
-    )
+        return f"the {_models(without)}, but a power with a limit is not excluded"
+    return f"with one, the {_models(with_limit)}; without, the {_models(without)}"
 
 
 def _models(names: list[str]) -> str:
@@ -258,9 +319,19 @@ def _scores(evidence: Evidence, view: View) -> list[str] | None:
         if rows.empty:
             continue
         refuted = rows["model"][rows["standing"] == REFUTED].tolist()
+        struck = rows["model"][rows["standing"] == STRUCK_OUT].tolist()
         left = rows["model"][rows["standing"] == SURVIVES].tolist()
         sentences = [] if paragraphs else [_what_is_predicted(rows.first)]
+        smallest = evidence.rows(LIMIT_EVIDENCE, view, part=part)["smallest"].min()
+        first = evidence.rows(PART_MEANS, view, part=part)["n_points"].min()
+        if smallest > first:
+            of = f"{of} from {smallest:,} points on"
         sentences.append(f"For {of}, {_which(left)} and {_refuted(refuted)}.")
+        if struck:
+            sentences.append(
+                f"The {listed(struck)} {'model has' if len(struck) == 1 else 'models have'} "
+                "another limit than the interior, which is level: out as well."
+            )
         worst = _worst(evidence, view, part)
         paragraphs.append(" ".join([*sentences, worst] if worst else sentences))
     return paragraphs or None
@@ -282,16 +353,19 @@ def _what_is_predicted(row: pd.Series) -> str:
     up_to = row["fitted_up_to"]
     sizes = count(row["predicted"], "larger size")
     if up_to == PUBLISHED_UP_TO:
-        return (
+        asked = (
             f"Each model is fitted up to {up_to:,} points, the paper's range, and has to predict "
-            f"the {sizes} of this run. A p below {REFUTED_BELOW} there, or for the fit to all "
-            "sizes, refutes it."
+            f"the {sizes} of this run."
+        )
+    else:
+        asked = (
+            f"This run has too few sizes on one side of {PUBLISHED_UP_TO:,} points, where the "
+            f"paper's range ends, so that each model is fitted up to {up_to:,} points and has to "
+            f"predict the {sizes} left out."
         )
     return (
-        f"This run has too few sizes on one side of {PUBLISHED_UP_TO:,} points, where the paper's "
-        f"range ends, so that each model is fitted up to {up_to:,} points and has to predict the "
-        f"{sizes} left out. A p below {REFUTED_BELOW} there, or for the fit to all sizes, refutes "
-        "it."
+        f"{asked} A p below {show(row['refuted_below'], 'g2')} there, or for the fit to all sizes, "
+        f"refutes it: {REFUTED_BELOW:g}, shared among all trends of this run."
     )
 
 
@@ -310,17 +384,14 @@ def _worst(evidence: Evidence, view: View, part: str) -> str | None:
 
 
 def _limit(evidence: Evidence, view: View) -> list[str] | None:
+    row = evidence.one(LIMIT_VERDICTS, view)
     sentences = verdict_sentences(evidence, view)
     if not sentences:
-        row = evidence.one(LIMIT_VERDICTS, view, part=WHOLE)
         return None if row is None else ["Whether the mean has a limit needs more sizes."]
-    opening = sentences[0]
-    if opening.startswith("It "):
-        opening = f"The mean of the whole mesh {opening.removeprefix('It ')}"
-    opening = opening.replace("Whether it has", "Whether the mean of the whole mesh has")
-    paragraph = " ".join([opening, *sentences[1:]])
+    said = sentences[0].replace("It has", "The mean has", 1)
+    said = said.replace("Whether it has", "Whether the mean has", 1)
     check = _edge_check(evidence, view)
-    return [paragraph, check] if check else [paragraph]
+    return [f"{ONE_LIMIT}. {said}", *([check] if check else [])]
 
 
 def _edge_check(evidence: Evidence, view: View) -> str | None:
@@ -328,12 +399,17 @@ def _edge_check(evidence: Evidence, view: View) -> str | None:
     if row is None:
         return None
     agrees = "agree" if row["agrees"] == YES else "do not agree"
+    level = (
+        ""
+        if row["level"] == YES
+        else " But the interior is not level, and its mean no limit: they need not agree."
+    )
     return (
         "With an edge that thickens as the logarithm of the number of points, the whole mesh has "
         f"the limit {show(row['limit'], 'fixed4')}; the interior of the larger meshes has the mean "
         f"{show(row['interior'], 'fixed4')}. The two {agrees}: they differ by "
-        f"{show(abs(row['difference']), 'fixed4')}, {show(abs(row['t']), 'fixed1')} standard "
-        f"errors (p\u00a0=\u00a0{show(row['p'], 'p')})."
+        f"{show(abs(row['t']), 'fixed1')} standard errors "
+        f"(p\u00a0=\u00a0{show(row['p'], 'p')}).{level}"
     )
 
 
@@ -363,8 +439,9 @@ def _of_paper(evidence: Evidence, view: View) -> list[str] | None:
     return [
         f"Of the paper's four models the {top['model']} one fits the {view.distribution_word} "
         f"points best by least squares, with an adjusted R² of {show(top['adj_r2'], 'fixed3')}. "
-        "Least squares takes all variances to be equal, which they are not: it is here for the "
-        "comparison with the paper, and all else on this page goes by weighted fits."
+        "Least squares takes all variances to be equal, which they are not: "
+        f"{reference('figure-models')} and Table 7 have it for the comparison with the paper, and "
+        "all else on this page goes by weighted fits."
     ]
 
 
@@ -389,8 +466,9 @@ def _figure(evidence: Evidence, name: str, title: str, paper: str, which: str) -
         )
 
     fitted = {
-        PREDICTION: "curves are weighted fits to the smaller sizes only, and go on beyond them",
-        ALL_SIZES: "curves are weighted fits to all sizes",
+        PREDICTION: "curves are weighted fits of the models that survive and of the paper's "
+        "logarithmic one, to the sizes up to the upright line only, and go on beyond it",
+        LEAST_SQUARES: "curves are least squares fits to all sizes, of the paper's four models",
     }[which]
     return FigureBlock(
         id=name,
@@ -405,8 +483,9 @@ def _figure(evidence: Evidence, name: str, title: str, paper: str, which: str) -
 
 def _panel(evidence: Evidence, view: View, part: str, which: str) -> style.Panel | None:
     means = evidence.rows(PART_MEANS, view, part=part)
-    traces = []
-    for series, model in enumerate(one.name for one in DRAWN):
+    traces: list[Spec] = []
+    models = LINEAR_MODELS if which == LEAST_SQUARES else MODELS
+    for series, model in enumerate(one.name for one in models):
         rows = evidence.rows(CURVES, view, part=part, model=model, view=which)
         if not rows.empty:
             traces.append(
@@ -418,15 +497,30 @@ def _panel(evidence: Evidence, view: View, part: str, which: str) -> style.Panel
                     legendgroup=model,
                     showlegend=part == WHOLE,
                     # Pale and wide, the first is seen beside one that lies on it.
-                    line=style.line(series, 2 if series else 5),
-                    opacity=1 if series else 0.5,
+                    line=style.line(series, 2 if traces else 5),
+                    opacity=1 if traces else 0.5,
                     hovertemplate="%{x:,} points: %{y:.4f}<extra>" + model + "</extra>",
                 )
             )
     if means.empty or not traces:
         return None
     low, high = float(means["mean_lepp"].min()), float(means["mean_lepp"].max())
-    margin = max(high - low, 0.002)
+    margin = max((high - low) / 4, 0.002)
+    scores = evidence.rows(MODEL_SCORES, view, part=part)
+    if which == PREDICTION and not scores.empty:
+        end = scores.first["fitted_up_to"]
+        traces.append(
+            style.scatter(
+                x=[end, end],
+                y=[low - margin, high + margin],
+                mode="lines",
+                name="end of the sizes fitted",
+                legendgroup="end",
+                showlegend=part == WHOLE,
+                line={"color": style.MUTED, "width": 1.5, "dash": "dot"},
+                hoverinfo="skip",
+            )
+        )
     traces.append(
         style.scatter(
             x=means.column("n_points"),

@@ -126,8 +126,6 @@ def test_meshes_without_an_interior():
     tables = analyse(results, histograms, regions, edge, sets, asked)
     assert set(tables["part_means"].frame["part"]) == {"whole"}
     assert (tables["longest_paths"].frame["interior_paths"] == 0).all()
-    verdicts = tables["limit_verdicts"].frame.set_index("part")
-    assert verdicts.loc["interior", "has_limit"] == "undecided"
-    assert verdicts.loc["interior", "reason"] == "the run has too few sizes"
+    assert set(tables["limit_evidence"].frame["part"]) == {"whole"}
     assert not tables["missing"].frame["what"].str.contains("interior").any()
     assert isinstance(tables["limits"].frame, pd.DataFrame)

@@ -380,12 +380,9 @@ def test_the_cost_is_constant_if_no_mean_is_above_4(highest, holds):
         (4.01, np.nan, "no"),
     ],
 )
-def test_a_limit_of_4_is_held_against_that_of_the_whole_mesh(low, high, holds):
+def test_a_limit_of_4_is_held_against_the_one_of_both_parts(low, high, holds):
     limit = {"limit": 3.1, "limit_low": low, "limit_high": high}
-    rows = [
-        {"part": "interior", "has_limit": "else", "reason": "not this"},
-        {"part": "whole", "has_limit": "yes", "reason": "so it is"} | limit,
-    ]
+    rows = [{"has_limit": "yes", "reason": "so it is"} | limit]
     end = "–" if np.isnan(high) else f"{high:.4f}"
     seen, evidence = judged(LIMIT, limit_verdicts=rows)
     assert seen == holds
@@ -396,14 +393,14 @@ def test_a_limit_of_4_is_held_against_that_of_the_whole_mesh(low, high, holds):
 
 @pytest.mark.parametrize("verdict", ["no", "undecided"])
 def test_without_a_limit_none_is_refuted(verdict):
-    row = {"part": "whole", "has_limit": verdict, "reason": "so it is", "limit": 3.1,
+    row = {"has_limit": verdict, "reason": "so it is", "limit": 3.1,
            "limit_low": 3.0, "limit_high": 3.2}  # fmt: skip
     assert judged(LIMIT, limit_verdicts=[row]) == (
         "undecided", f"whether the mean has a limit: {verdict} (so it is)",
     )  # fmt: skip
-    why = lacking(LIMIT, limit_verdicts=[row | {"part": "interior"}])
+    why = lacking(LIMIT, limit_verdicts=[])
     assert why == "the run has too few triangulations"
-    few = [{"part": "whole", "has_limit": "undecided", "reason": FEW}]
+    few = [{"has_limit": "undecided", "reason": FEW}]
     assert lacking(LIMIT, limit_verdicts=few) == "the run has too few sizes"
 
 
@@ -439,7 +436,7 @@ def test_statements_are_judged_for_each_population_by_its_rows():
             "groups": ["mean_max_lepp", "sd_between", "mean_lepp"],
             "regressions": ["fitting", "model"],
             "analogous": ["part"],
-            "limit_verdicts": ["part"],
+            "limit_verdicts": ["reason"],
         }.items()
     }
     tables = {name: table_of(name, frame) for name, frame in empty.items()}

@@ -45,13 +45,10 @@ def test_geometric_meshes_do_not_refute_theorem_1(study):
 
 
 @pytest.mark.parametrize("verdict", ["yes", "no", "undecided"])
-def test_a_limit_is_what_the_whole_mesh_is_judged_to_have(study, verdict):
+def test_a_limit_is_what_both_parts_are_judged_to_have(study, verdict):
     asked, made, tables = study
     old = tables["limit_verdicts"]
-    other = {"yes": "no", "no": "yes", "undecided": "no"}[verdict]
-    whole = old.frame["part"] == "whole"
-    verdicts = whole.map({True: verdict, False: other})
-    frame = old.frame.assign(has_limit=verdicts, reason="as made")
+    frame = old.frame.assign(has_limit=verdict, reason="as made")
     changed = tables.adding(replace(old, frame=frame))
     (told,) = statements.statements.make(Study(Measurements.of(*made, asked), changed))
     rows = told.rows(method="incremental", distribution="uniform").frame.set_index("statement")

@@ -8,18 +8,28 @@ import pytest
 from study.statistics import models
 from study.statistics.groups import Groups, NotEnough
 from study.statistics.limit_verdict import (
+    CONTRADICTION,
     GROWTH,
     LEVEL,
     LIMIT,
     NONE_FITS,
     ROUGH,
     SEVERAL,
+    LimitVerdict,
     candidates,
+    combined,
     judge,
+    level_mean,
     limit_of,
     per_decade,
 )
-from study.statistics.model_scores import coefficient_interval, sizes_to_fit
+from study.statistics.model_scores import (
+    coefficient_interval,
+    lack_of_fit,
+    prediction_score,
+    sizes_to_fit,
+)
+from study.statistics.power_family import ProfileInterval
 from study.statistics.size_means import SizeMeans
 from study.statistics.verdicts import NO, UNDECIDED, YES
 
@@ -152,6 +162,115 @@ def test_limits_and_slopes():
 
 def test_too_few_sizes():
     means = made(WITHOUT["logarithm"], 1)
-    with pytest.raises(NotEnough, match="needs 6 sizes, not 5"):
-        judge(means.where(np.arange(10) < 5), PUBLISHED)
-    assert judge(means.where(np.arange(10) < 6), PUBLISHED).verdict == UNDECIDED
+    with pytest.raises(NotEnough, match="needs 5 sizes, not 4"):
+        judge(means.where(np.arange(10) < 4), PUBLISHED)
+    assert judge(means.where(np.arange(10) < 5), PUBLISHED).verdict == UNDECIDED
+
+
+# Two parts that have one limit
+
+
+def test_a_model_of_another_limit_than_a_level_interior_is_struck_out():
+    for seed in range(RUNS):
+        means = made(WITH_LIMIT["thickening edge"][1], seed)
+        level = level_mean(made(lambda x: 3.4765 + 0 * x, seed + 100), PUBLISHED)
+        if level is None:  # one in a hundred
+            continue
+        assert level.low < 3.4765 < level.high
+        fitted = sizes_to_fit(means.n_points, PUBLISHED, 4)
+        scored = {one.model.name: one for one in candidates(means, fitted, level=level)}
+        for name, one in scored.items():
+            if one.model.has_limit and name != "saturating":
+                limit = limit_of(one.model, means)
+                assert one.struck_out == (limit.low > level.high or limit.high < level.low)
+            elif name != "saturating":
+                assert not one.struck_out
+        assert not scored["thickening edge"].struck_out
+        assert scored["constant"].struck_out
+        assert not any(one.struck_out for one in candidates(means, fitted))
+
+
+def test_the_survivor_without_the_interior_is_out_with_it():
+    means = made(WITH_LIMIT["saturating"][1], 1)
+    assert "saturating" in {one.model.name for one in judge(means, PUBLISHED).survivors}
+    off = ProfileInterval(3.4765, 3.476, 3.477)
+    assert "saturating" not in {
+        one.model.name for one in judge(means, PUBLISHED, level=off).survivors
+    }
+    near = ProfileInterval(3.09, 3.089, 3.091)
+    verdict = judge(means, PUBLISHED, level=near)
+    assert "saturating" in {one.model.name for one in verdict.survivors}
+
+
+def test_a_level_mean_allows_for_what_may_be_hidden():
+    means = made(lambda x: 3.4755 + 0 * x, 2)
+    level, mean = level_mean(means, PUBLISHED), limit_of(models.CONSTANT, means)
+    change = per_decade(means)
+    unseen = max(abs(change.low), abs(change.high))
+    assert (level.low, level.high) == pytest.approx((mean.low - unseen, mean.high + unseen))
+    assert level_mean(made(WITHOUT["logarithm"], 2), PUBLISHED) is None
+
+
+def test_the_level_is_that_of_all_trends_together():
+    means = made(WITH_LIMIT["thickening edge"][1], 1)
+    fitted = sizes_to_fit(means.n_points, PUBLISHED, 4)
+    for below in (0.01, 1e-4, 0.9):
+        for one in candidates(means, fitted, below):
+            assert one.refuted == (min(one.fit.p, one.prediction.p) < below)
+
+
+def test_a_run_of_many_trends_seldom_refutes_a_true_model():
+    def least_p(seed):
+        means = made(lambda x: 3.4755 + 0 * x, seed + 5000)
+        fitted = sizes_to_fit(means.n_points, PUBLISHED, 4)
+        fit = lack_of_fit(models.CONSTANT, means)
+        return min(fit.p, prediction_score(models.CONSTANT, means, fitted).p)
+
+    runs = np.array([least_p(seed) for seed in range(800)]).reshape(50, 16).min(axis=1)
+    assert (runs < 0.01 / 16).mean() <= 0.06
+    assert (runs < 0.01).mean() >= 0.1
+
+
+def part(verdict, reason, *limit):
+    interval = ProfileInterval(*limit) if limit else None
+    return LimitVerdict(verdict, reason, (), None, None, interval)
+
+
+LEVEL_PART = part(YES, LEVEL, 3.0, 2.9, 3.1)
+LIMIT_PART = part(YES, LIMIT, 3.05, 2.95, 3.15)
+OTHER_LIMIT = part(YES, LIMIT, 3.5, 3.4, 3.6)
+NO_PART = part(NO, GROWTH)
+OPEN_PART = part(UNDECIDED, SEVERAL)
+
+
+@pytest.mark.parametrize(
+    ("whole", "interior", "verdict", "reason", "limit"),
+    [
+        (OPEN_PART, LEVEL_PART, YES, LEVEL, 3.0),
+        (LIMIT_PART, LEVEL_PART, YES, LEVEL, 3.0),
+        (LEVEL_PART, LIMIT_PART, YES, LEVEL, 3.0),
+        (LIMIT_PART, OPEN_PART, YES, LIMIT, 3.05),
+        (OPEN_PART, LIMIT_PART, YES, LIMIT, 3.05),
+        (LIMIT_PART, None, YES, LIMIT, 3.05),
+        (None, LEVEL_PART, YES, LEVEL, 3.0),
+        (OTHER_LIMIT, LEVEL_PART, UNDECIDED, CONTRADICTION, None),
+        (NO_PART, LEVEL_PART, UNDECIDED, CONTRADICTION, None),
+        (LIMIT_PART, NO_PART, UNDECIDED, CONTRADICTION, None),
+        (NO_PART, OPEN_PART, NO, GROWTH, None),
+        (OPEN_PART, NO_PART, NO, GROWTH, None),
+        (NO_PART, None, NO, GROWTH, None),
+        (OPEN_PART, part(UNDECIDED, ROUGH), UNDECIDED, SEVERAL, None),
+        (None, part(UNDECIDED, NONE_FITS), UNDECIDED, NONE_FITS, None),
+    ],
+)
+def test_two_parts_have_one_verdict(whole, interior, verdict, reason, limit):
+    found = combined(whole, interior)
+    assert (found.verdict, found.reason) == (verdict, reason)
+    assert (found.limit.estimate if found.limit else None) == limit
+    said = {one.verdict for one in found.decided_by}
+    assert said == ({verdict} if verdict != UNDECIDED else set())
+
+
+def test_of_two_limits_the_whole_is_stated_unless_the_interior_is_level():
+    assert combined(LIMIT_PART, part(YES, LIMIT, 3.0, 2.9, 3.1)).limit.estimate == 3.05
+    assert combined(part(YES, LEVEL, 3.05, 2.9, 3.1), LEVEL_PART).limit.estimate == 3.0

@@ -144,7 +144,7 @@ def test_which_sizes_are_fitted():
     # too few below: all but the largest quarter
     assert sizes_to_fit(SIZES, 50_000, 4).tolist() == [True] * 6 + [False] * 2
     # none beyond
-    assert sizes_to_fit(SIZES[:5], 200_000, 4).tolist() == [True] * 3 + [False] * 2
+    assert sizes_to_fit(SIZES[:5], 200_000, 4).tolist() == [True] * 4 + [False]
     assert sizes_to_fit(np.arange(20), 20, 4).sum() == 15
 
 
