@@ -44,20 +44,24 @@ def test_geometric_meshes_do_not_refute_theorem_1(study):
     assert (rows["holds"] == "not rejected").sum() >= 3  # one in twenty is by chance
 
 
-@pytest.mark.parametrize("verdict", ["yes", "no", "undecided"])
-def test_a_limit_is_what_both_parts_are_judged_to_have(study, verdict):
+@pytest.mark.parametrize(
+    ("verdict", "holds"), [("yes", "no"), ("no", "undecided"), ("undecided", "undecided")]
+)
+def test_a_limit_is_what_both_parts_are_judged_to_have(study, verdict, holds):
     asked, made, tables = study
     old = tables["limit_verdicts"]
-    frame = old.frame.assign(has_limit=verdict, reason="as made")
+    frame = old.frame.assign(
+        has_limit=verdict, reason="as made", limit=3.1, limit_low=3.0, limit_high=3.2
+    )
     changed = tables.adding(replace(old, frame=frame))
     (told,) = statements.statements.make(Study(Measurements.of(*made, asked), changed))
     rows = told.rows(method="incremental", distribution="uniform").frame.set_index("statement")
-    assert rows.loc[LIMIT, "holds"] == verdict
+    assert rows.loc[LIMIT, "holds"] == holds
     assert rows.loc[BOUND, "holds"] == "yes"
 
 
-BOUND = "The cost of a LEPP is constant: its mean size is at most 4"
-LIMIT = "The mean LEPP size has a limit as the number of points grows"
+BOUND = "The cost of a LEPP is constant"
+LIMIT = "The logistic regression has an asymptotic limit equal to 4"
 
 
 def test_means_differ_if_the_analysis_of_variance_says_so(study):

@@ -22,7 +22,7 @@ def test_the_four_models_of_the_paper():
 
 def written(formula, terms):
     """The formula as Python has it."""
-    for mark, meaning in (("log2", "np.log2"), ("ln", "np.log"), ("exp", "np.exp"), ("^", "**")):
+    for mark, meaning in (("log₂", "np.log2"), ("ln", "np.log"), ("exp", "np.exp"), ("^", "**")):
         formula = formula.replace(mark, meaning)
     formula = re.sub(r"(\d|\)) (x|\()", r"\1 * \2", formula)
     for term in terms:
