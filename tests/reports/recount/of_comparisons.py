@@ -45,6 +45,8 @@ def pairs(run: Run, method: str, part: str) -> list[tuple[Pair, str]]:
                 half = t95(test.df) * np.sqrt(v2 + ratio**2 * v1) / one.mean()
                 off = ratio - 1
                 made.append(Pair(a, b, n, off, off - half, off + half, float(test.pvalue)))
+    if not made:
+        return []
     adjusted = holm(np.array([pair.p for pair in made]))
     words = []
     for pair, p in zip(made, adjusted, strict=True):
@@ -115,14 +117,16 @@ def analogous(v: View, s: Sheet, k: int) -> str:
         for pair, word in pairs(v.run, v.method, WHOLE)
         if v.distribution in (pair.first, pair.second)
     ]
+    start = "Results are analogous for all distributions: their means differ by less than 1 %"
+    if not of:
+        return f"{start} | not tested | the run has too few triangulations"
     far = max((pair for pair, _ in of), key=lambda pair: abs(pair.relative))
     other = far.second if far.first == v.distribution else far.first
     alike = sum(word == "alike" for _, word in of)
     return (
-        "Results are analogous for all distributions: their means differ by less than 1 % | "
-        f"{equivalent([pair for pair, _ in of])} | {s(len(of))} comparisons with the others: "
-        f"{s(alike)} alike; the largest difference is {s.percent(abs(far.relative))}, from the "
-        f"{WORDS[other]} distribution at {s(far.n)} points"
+        f"{start} | {equivalent([pair for pair, _ in of])} | {s(len(of))} comparisons with the "
+        f"others: {s(alike)} alike; the largest difference is "
+        f"{s.percent(abs(far.relative))}, from the {WORDS[other]} distribution at {s(far.n)} points"
     )
 
 

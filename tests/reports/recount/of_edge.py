@@ -75,10 +75,10 @@ def one_mean(v: View, s: Sheet, k: int) -> str:
         f"{s(y[high] - y[low])} apart."
     )
     if p < np.log10(0.05):
-        return f"{start} do not have one mean (p = {s.p(p, 1e-3)}): {which}"
+        return f"{start} do not have one mean (p = {s.p(p, 1e-5)}): {which}"
     half = t95(df_error) / np.sqrt(w.sum())
     return (
-        f"{start} may have one mean (p = {s.p(p, 1e-3)}), {s(mean)} (95 % from {s(mean - half)} to "
+        f"{start} may have one mean (p = {s.p(p, 1e-5)}), {s(mean)} (95 % from {s(mean - half)} to "
         f"{s(mean + half)}): {which}"
     )
 
@@ -171,8 +171,8 @@ def very_longest(v: View, s: Sheet, k: int) -> str:
     total, layer = int(row.sum()), int(row.idxmax())
     where = "in the interior" if layer == INTERIOR_LAYER else f"in layer {s(layer)}"
     return (
-        f"At this number of points {s(total)} {plural(total, 'path has', 'paths have')} the largest "
-        f"size of all, {s(size)}, and {'starts' if total == 1 else 'most start'} {where}."
+        f"At this number of points {s(total)} {plural(total, 'path has', 'paths have')} the "
+        f"largest size of all, {s(size)}, and {'starts' if total == 1 else 'most start'} {where}."
     )
 
 

@@ -14,7 +14,7 @@ import statsmodels.api as sm
 from expected import Sheet, listed, plural
 from recounts import View, recount
 from run_data import INTERIOR, WHOLE, Groups, Run, log10_f_tail, t95
-from scipy import optimize, stats
+from scipy import optimize, special, stats
 
 #: Model, number of coefficients, whether it has a limit.
 MODELS: dict[str, tuple[int, bool | None]] = {
@@ -46,7 +46,7 @@ NEAR = 2e-6
 
 
 def _smooth(groups: Groups) -> np.ndarray:
-    """Variances by a gamma regression of the sample variances on ln n, bent where that is better."""
+    """Variances by a gamma regression of sample variances on ln n, bent where that is better."""
     n = np.array(list(groups), dtype=float)
     counts = np.array([len(g) for g in groups.values()])
     log_n = np.log(n) - np.log(n).mean()
@@ -102,7 +102,7 @@ def means(run: Run, method: str, distribution: str, part: str) -> Means:
 
 def _scale(model: str, seen: Means) -> tuple[np.ndarray, np.ndarray]:
     """The values that a linear model fits, and their variances."""
-    if model != "logistic":
+    if model != "logistic" or seen.y.max() >= 4:
         return seen.y, seen.v
     slope = 4 / (seen.y * (4 - seen.y))
     return np.log(seen.y / (4 - seen.y)), seen.v * slope**2
@@ -167,7 +167,7 @@ def predicted(model: str, seen: Means, x: float) -> float:
         beta = _line(power, seen)[0]
         return float(beta[0] + beta[1] * _box(power, at)[0])
     value = float(np.column_stack(BASES[model](at))[0] @ _linear(model, seen)[0])
-    return 4 / (1 + np.exp(-value)) if model == "logistic" else value
+    return float(4 * special.expit(value)) if model == "logistic" else value
 
 
 def fitted_sizes(seen: Means) -> np.ndarray:
@@ -209,7 +209,7 @@ def scores(run: Run, method: str, distribution: str, part: str) -> dict[str, Sco
     kept = fitted_sizes(seen)
     made = {}
     for model, (terms, _) in MODELS.items():
-        if kept.sum() < terms + 1 or kept.all():
+        if kept.sum() < terms + 1 or kept.all() or (model == "logistic" and seen.y.max() >= 4):
             continue
         fit, n = squares(model, seen), len(seen.x) - terms
         prediction = _prediction_chi2(model, seen, kept)
@@ -264,23 +264,30 @@ def power_interval(key: tuple, part: str) -> tuple[float, float]:
 def power_value(key: tuple, part: str, x: float) -> Interval:
     """Value at x, or the limit, with its profile likelihood interval over all powers."""
     best, ceiling, lines, _, seen = _profile(key, part)
-    lows, highs = [], []
-    for p, beta, covariance, cost in lines:
-        if np.isinf(x) and p >= 0:
-            continue
-        at = np.array([1.0, -1 / p if np.isinf(x) else _box(p, np.array([x]))[0]])
-        half = np.sqrt((ceiling - cost) * (at @ covariance @ at))
-        lows.append(at @ beta - half)
-        highs.append(at @ beta + half)
-    low, high = min(lows), max(highs)
+
+    def end(power: float, side: int) -> float:
+        beta, covariance, cost = _line(power, seen)
+        at = np.array([1.0, -1 / power if np.isinf(x) else _box(power, np.array([x]))[0]])
+        left = max(ceiling - cost, 0.0)
+        return float(at @ beta + side * np.sqrt(left * (at @ covariance @ at)))
+
+    powers = [line[0] for line in lines if line[0] < 0 or not np.isinf(x)]
+    ends = []
+    for side in (-1, 1):
+        values = [side * end(power, side) for power in powers]
+        k = int(np.argmax(values))
+        between = powers[max(k - 1, 0)], powers[min(k + 1, len(powers) - 1)]
+        nearer = optimize.minimize_scalar(
+            lambda power, side=side: -side * end(power, side), bounds=between, method="bounded"
+        )
+        ends.append(side * max(values[k], -float(nearer.fun)))
+    low, high = ends
     beta, covariance, cost = _line(0.0, seen)
     if np.isinf(x) and cost <= ceiling:
         half = np.sqrt((ceiling - cost) * covariance[1, 1])
         low = -np.inf if beta[1] - half < 0 else low
         high = np.inf if beta[1] + half > 0 else high
-    beta = _line(best, seen)[0]
-    at = -1 / best if np.isinf(x) else _box(best, np.array([x]))[0]
-    return float(beta[0] + beta[1] * at), float(low), float(high)
+    return end(best, 0), low, high
 
 
 def value_interval(model: str, key: tuple, part: str, x: float) -> Interval:
@@ -290,7 +297,8 @@ def value_interval(model: str, key: tuple, part: str, x: float) -> Interval:
     direction = np.column_stack(BASES[model](np.array([x])))[0]
     ends = _along(model, means(*key, part), direction)
     if model == "logistic":
-        return tuple(4 / (1 + np.exp(-end)) for end in ends)  # type: ignore[return-value]
+        value, low, high = (float(4 * special.expit(end)) for end in ends)
+        return value, low, high
     return ends
 
 
@@ -304,7 +312,7 @@ def per_decade(key: tuple, part: str) -> Interval:
 def verdict(run: Run, method: str, distribution: str, part: str) -> tuple[str, str] | None:
     """Whether there is a limit, and why; None for too few sizes."""
     key = (run, method, distribution)
-    if len(means(*key, part).x) < 6:
+    if not run.groups(*key[1:], part) or len(means(*key, part).x) < 6:
         return None
     left = survivors(*key, part)
     _, low, high = per_decade(key, part)
@@ -387,6 +395,12 @@ def verdict_sentence(key: tuple, part: str, it: str, s: Sheet) -> str:
     return f"{stays} with one, the {_models(names[0])}; without, the {_models(names[1])}."
 
 
+@recount("limit", "Whether the mean has a limit needs")
+def more_sizes(v: View, s: Sheet, k: int) -> str:
+    needs = all(verdict(*v.key, part) is None for part in (WHOLE, INTERIOR))
+    return f"Whether the mean has a limit needs {'more' if needs else 'no more'} sizes."
+
+
 _LIMIT = r"(It|The mean of the whole mesh|Whether it|Whether the mean of the whole mesh) (has|is) "
 _LIMIT_INSIDE = r"(The|Whether the) mean of the interior (has|is) "
 
@@ -412,7 +426,7 @@ def _larger_half(groups: Groups) -> Groups:
 
 
 def edge_limit(key: tuple) -> tuple[float, float, float, float] | None:
-    """Limit of the thickening edge, level mean of the larger interiors, t and p of the difference."""
+    """Limit of the thickening edge, mean of level larger interiors, t and p of their difference."""
     whole, inside = key[0].groups(*key[1:]), _larger_half(key[0].groups(*key[1:], INTERIOR))
     counts = np.array([len(g) for g in inside.values()])
     seen = Means(
@@ -582,7 +596,9 @@ def projections(v: View, s: Sheet, k: int) -> str:
     for model in survivors(*v.key, WHOLE):
         if model != "growing power":
             ends = value_interval(model, v.key, WHOLE, 1e6)
-            value, low, high = (s(end, 5e-6 + 1e-8 * abs(end)) for end in ends)
+            # So far out, the sixth digit of a variance counts.
+            near = 5e-6 + 1e-5 * (ends[2] - ends[1])
+            value, low, high = (s(end, near) for end in ends)
             words.append(f"{value} ({model}, 95 % from {low} to {high})")
     return f"At {s(1e9)} points they put the mean at {listed(words)}."
 

@@ -189,8 +189,8 @@ def longest(chance: object, paths: float) -> int | None:
 
 def _chi2(law: Law, s: Sheet) -> str:
     return (
-        f"χ² = {s(law.chi2, 2e-4 * law.chi2)} on {s(law.df)} degrees of freedom, "
-        f"p = {s.p(law.log10_p, 2e-3)}"
+        f"χ² = {s(law.chi2, 1e-5 * law.chi2)} on {s(law.df)} degrees of freedom, "
+        f"p = {s.p(law.log10_p, 1e-4)}"
     )
 
 
@@ -419,7 +419,7 @@ def fitted_law(v: View, s: Sheet, k: int) -> str:
     law = falling_law(*v.key, law_part(v.key))
     assert law is not None
     words = [
-        f"{sign} = {s(value, 2e-4 * abs(value))} ± {s(error, 2e-3 * error)}"
+        f"{sign} = {s(value, 1e-6 * abs(value))} ± {s(error, 1e-5 * error)}"
         for sign, value, error in zip("λba", law.coefficients, law.errors, strict=True)
     ]
     return (
@@ -513,7 +513,8 @@ def premise_of_theorem_1(v: View, s: Sheet, k: int) -> str:
         "mean (p + 1) / p, standard deviation √(1 − p) / p, skewness (2 − p) / √(1 − p), excess "
         "kurtosis (p² − 6 p + 6) / (1 − p)"
     )
-    part = law_part(v.key)
+    # The interior where it can be tested, else the whole.
+    part = INTERIOR if constant_law(*v.key, INTERIOR) else WHOLE
     law = constant_law(*v.key, part)
     if law is None:
         return f"{start} | not tested | the run has too few triangulations"

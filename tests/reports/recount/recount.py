@@ -42,6 +42,8 @@ class Outcome:
     sentences, definitions, numbers : int
         Sentences of the page; of which have nothing to count; numbers held against ours.
     differing, unchecked : list of str
+    recounted : list of (Sentence, str, Sheet)
+        Each with the sentence that is expected, and its numbers.
     """
 
     sentences: int = 0
@@ -49,6 +51,7 @@ class Outcome:
     numbers: int = 0
     differing: list[str] = field(default_factory=list)
     unchecked: list[str] = field(default_factory=list)
+    recounted: list[tuple[Sentence, str, Sheet]] = field(default_factory=list)
 
     @property
     def good(self) -> bool:
@@ -89,6 +92,7 @@ def recount_sentences(sentences: Sequence[Sentence], run: Run) -> Outcome:
             seen[key] += 1
         differences = sheet.differences(expected, one.text)
         outcome.numbers += len(sheet.numbers)
+        outcome.recounted.append((one, expected, sheet))
         if differences is None:
             differences = [f"other words; recounted: {sheet.filled(expected)}"]
         if differences:
