@@ -184,3 +184,11 @@ def test_tails_far_out_meet_those_of_scipy_as_far_as_it_has_them() -> None:
     assert log10_f_tail(200.0, 19, 780) == pytest.approx(log10(stats.f.sf(200.0, 19, 780)))
     assert log10_chi2_tail(1200.0, 20) == pytest.approx(log10(stats.chi2.sf(1200.0, 20)))
     assert log10_t_tail(1e8, 30) == pytest.approx(log10(stats.t.sf(1e8, 30)))
+
+
+def test_a_recount_uses_nothing_of_what_it_checks() -> None:
+    for path in Path(__file__).parent.glob("*.py"):
+        if path.stem not in ("page_sentences", "test_recount"):  # the page, and this
+            imported = re.findall(r"^\s*(?:from|import) ([\w.]+)", path.read_text(), re.MULTILINE)
+            ours = {name for name in imported if name.startswith(("study", "reports", "lepp"))}
+            assert ours <= {"lepp", "study.design.sampling"}, path.name
