@@ -1,0 +1,104 @@
+"""Sentences of the page that have nothing to count, word for word, by the reason.
+
+A sentence that changes by a word is no longer among them, and is reported.
+"""
+
+DEFINITIONS: dict[str, frozenset[str]] = {
+    "what a word means, or a theorem supposes": frozenset(
+        {
+            "A neighbour is of type A, B or C when the crossed edge is its shortest, middle "
+            "or longest.",
+            "A path ends at a neighbour of type C: one whose own longest edge is the edge "
+            "that is crossed.",
+            "It ends at a terminal edge: the longest edge of both triangles beside it, or one "
+            "on the boundary.",
+            "Its bounds need less: if every step ends a path with a chance of at least 1/3, "
+            "which may differ from step to step, then at most (2/3)ʲ of the paths go on for j "
+            "steps after their second triangle, the mean is at most 2 + 2/3 + (2/3)² + … = 4, "
+            "and the standard deviation at most √6.",
+            "Its size is the number of triangles on it.",
+            "No bound holds for all meshes: in a strip whose edges grow from one end to the "
+            "other, the first triangle's path covers everything, and the mean is (n + 1) / 2.",
+            "One path is the first step of a refinement: the triangles at its terminal edge "
+            "are bisected, and the path is followed anew until the triangle it starts from "
+            "has been bisected itself.",
+            "That it is above 2 had to come out: a path in the interior has 2 triangles or "
+            "more by definition.",
+            "The interior is all triangles that are 30 or more steps across edges away from a "
+            "triangle at the hull; the edge is all others.",
+            "The layer of a triangle is its number of steps from the hull.",
+            "The longest-edge propagation path (LEPP) of a triangle starts at the triangle "
+            "and crosses its longest edge into the neighbour, then the neighbour’s longest "
+            "edge, and so on.",
+            "The lower one, 2, is the size of the shortest path inside.",
+            "The runs test counts whole numbers of runs, so that sets of a given size can "
+            "have only certain p-values.",
+            "Theorem 1 takes one chance for all steps.",
+            "Theorem 1 takes the chance to end to be the same at every step, and makes all "
+            "four moments out of it.",
+            "Theorem 2 supposes p ≥ 1/3 and, with Theorem 1, the same p at every step.",
+        }
+    ),
+    "how a figure is read": frozenset(
+        {
+            "A dot is one triangulation; it is drawn at its number of points.",
+            "A line that rises says that long paths start at the edge.",
+            "A square is the second group's mean less the first's; a dot marks pairs that "
+            "cannot be told apart.",
+            "Above the whole mesh, below its interior, where there is one.",
+            "At the left end are all triangles: there the share is that of the edge in the mesh.",
+            "Bars are 95 % intervals of the means.",
+            "Bars are 95 % intervals, mostly narrower than the markers.",
+            "Bars are 95 % intervals, mostly narrower than the markers; the dotted line is "
+            "the least share of type C that Theorem 2 supposes.",
+            "Bars are 95 % intervals.",
+            "Both methods triangulate the same points.",
+            "Boxes span the quartiles, whiskers reach to 1.5 times their distance.",
+            "Dots are means over triangulations with 95 % intervals; the horizontal scale is "
+            "logarithmic.",
+            "Dots are the means with 95 % intervals; curves are weighted fits to all sizes.",
+            "Dots are the means with 95 % intervals; curves are weighted fits to the smaller "
+            "sizes only, and go on beyond them.",
+            "Every edge across the strip is longer than the one to its left.",
+            "If the points are random, the bars are level with the dashed line, give or take.",
+            "Lines are 95 % intervals over triangulations of the largest number of points.",
+            "Long paths come in bundles that share most of their triangles: the longest one "
+            "seen scatters more widely around what a law expects than independent paths "
+            "would.",
+            "Means of the groups with 95 % intervals.",
+            "Normal values would lie on the dashed line.",
+            "Of the paths that have k triangles or more, the share that have more, with 95 % "
+            "intervals.",
+            "The first points of the first point set of each distribution, as drawn.",
+            "The last dot is the interior: layer 30 and all beyond.",
+            "The scales differ; what matters is the distance between the lines of a panel.",
+            "The vertical scale is logarithmic.",
+            "The vertical scale is logarithmic: a geometric law is a straight line.",
+            "Theorem 1 takes each line to be level.",
+            "Theorem 1 takes it to be constant.",
+            "Where the paper prints a mean, the lower panel has the difference; dotted lines "
+            "are at 2 standard errors.",
+            "With r of all steps the mean fits by construction.",
+        }
+    ),
+    "what the page does, and why": frozenset(
+        {
+            "A p below 0.01 there, or for the fit to all sizes, refutes it.",
+            "Delaunay triangulations are other meshes: that they differ is no failure to "
+            "reproduce.",
+            "Least squares takes all variances to be equal, which they are not: it is here "
+            "for the comparison with the paper, and all else on this page goes by weighted "
+            "fits.",
+            "The incremental method, the paper's, inserts the points as they come and never "
+            "flips an edge; the Delaunay method makes triangles that are as far from thin as "
+            "the points allow.",
+            "The paper shows Table 4 for uniform points only; for the others it says that the "
+            "results are alike.",
+            "The paper's triangulations are made by inserting the points as they come, "
+            "without flips (the incremental method).",
+            "The report is made by software, from a design and a seed; cite both, and the paper.",
+            "What follows is extrapolation, by the models that survive for the whole mesh; "
+            "the intervals hold only if the model does.",
+        }
+    ),
+}

@@ -1,0 +1,187 @@
+"""The edge and the interior: means of the parts and the layers, where the longest paths start."""
+
+from functools import cache
+
+import numpy as np
+import pandas as pd
+from expected import Sheet, plural
+from of_growth import means
+from recounts import View, recount
+from run_data import INTERIOR, INTERIOR_LAYER, WHOLE, WORDS, Run, log10_f_tail, t95
+
+
+@cache
+def layers(run: Run, method: str, distribution: str, n: int) -> pd.DataFrame:
+    """Of one size: by layer the share of triangles and the mean with its interval."""
+    frame = run.counts("layers", method, distribution)
+    frame = frame[frame["n_points"] == n]
+    frame = frame.assign(steps=frame["lepp_size"] * frame["count"])
+    sums = frame.groupby(["layer", "replicate"])[["steps", "count"]].sum()
+    made = []
+    for layer, one in sums.groupby("layer"):
+        mean = one["steps"].sum() / one["count"].sum()
+        r = len(one)
+        residuals = one["steps"] - mean * one["count"]
+        error = (
+            np.sqrt(r / (r - 1) * (residuals**2).sum()) / one["count"].sum() if r > 1 else np.nan
+        )
+        half = t95(r - 1) * error if r > 1 and error > 0 else np.nan
+        made.append((layer, one["count"].sum(), mean, mean - half, mean + half))
+    table = pd.DataFrame(made, columns=["layer", "count", "mean", "low", "high"]).set_index("layer")
+    return table.assign(share=table["count"] / table["count"].sum())
+
+
+def edge_share(run: Run, method: str, distribution: str, n: int) -> float:
+    """Share of the triangles that are not in the interior."""
+    return 1 - float(layers(run, method, distribution, n)["share"].get(INTERIOR_LAYER, 0.0))
+
+
+@recount("parts", "At .* points the edge has")
+def share_by_method(v: View, s: Sheet, k: int) -> str:
+    n = max(v.run.groups(v.method, v.distribution, INTERIOR))
+    return (
+        f"At {s(n)} points the edge has {s.percent(edge_share(*v.key, n))} of the triangles by the "
+        f"{v.method_word} method."
+    )
+
+
+@recount("parts", "From ")
+def changes(v: View, s: Sheet, k: int) -> str:
+    whole = {n: g.mean() for n, g in v.run.groups(v.method, v.distribution).items()}
+    inside = {n: g.mean() for n, g in v.run.groups(v.method, v.distribution, INTERIOR).items()}
+    a, b = min(inside), max(inside)
+    return (
+        f"From {s(a)} to {s(b)} points the mean of the whole mesh changes by "
+        f"{s(whole[b] - whole[a])}, from {s(whole[a])} to {s(whole[b])}, and that of the interior "
+        f"by {s(inside[b] - inside[a])}, from {s(inside[a])} to {s(inside[b])}."
+    )
+
+
+@recount("parts", "At .* points the interiors")
+def one_mean(v: View, s: Sheet, k: int) -> str:
+    seen = {d: means(v.run, v.method, d, INTERIOR) for d in v.run.distributions}
+    x = max(one.x.max() for one in seen.values())
+    at = {d: int(np.flatnonzero(one.x == x)[0]) for d, one in seen.items() if x in one.x}
+    y = {d: float(seen[d].y[i]) for d, i in at.items()}
+    w = np.array([1 / seen[d].v[i] for d, i in at.items()])
+    values = np.array(list(y.values()))
+    mean = float(w @ values / w.sum())
+    df, df_error = len(y) - 1, sum(seen[d].df for d in at)
+    p = log10_f_tail(float(w @ (values - mean) ** 2) / df, df, df_error)
+    low, high = min(y, key=y.__getitem__), max(y, key=y.__getitem__)
+    start = f"At {s(1000 * x)} points the interiors of the {s(len(y))} distributions"
+    which = (
+        f"the {WORDS[low]} points have the lowest and the {WORDS[high]} ones the highest, "
+        f"{s(y[high] - y[low])} apart."
+    )
+    if p < np.log10(0.05):
+        return f"{start} do not have one mean (p = {s.p(p, 1e-5)}): {which}"
+    half = t95(df_error) / np.sqrt(w.sum())
+    return (
+        f"{start} may have one mean (p = {s.p(p, 1e-5)}), {s(mean)} (95 % from {s(mean - half)} to "
+        f"{s(mean + half)}): {which}"
+    )
+
+
+@recount("figure-parts", "At ")
+def spans(v: View, s: Sheet, k: int) -> str:
+    words = []
+    for part in (WHOLE, INTERIOR):
+        groups = {d: v.run.groups(v.method, d, part) for d in v.run.distributions}
+        n = max(max(g) for g in groups.values())
+        last = [g[n].mean() for g in groups.values() if n in g]
+        words.append(
+            f"the {part} means of the {s(len(last))} {plural(len(last), 'distribution')} lie from "
+            f"{s(min(last))} to {s(max(last))}"
+        )
+    return f"At {s(max(v.run.sizes))} points {' and '.join(words)}."
+
+
+@recount("layers", "At ")
+def edge_of_largest(v: View, s: Sheet, k: int) -> str:
+    n = max(v.run.sizes)
+    return f"At {s(n)} points the edge has {s.percent(edge_share(*v.key, n))} of the triangles."
+
+
+@recount("layers", "Its mean is highest")
+def highest_layer(v: View, s: Sheet, k: int) -> str:
+    table = layers(*v.key, max(v.run.sizes))
+    edge = table[table.index < INTERIOR_LAYER]
+
+    def at(layer: int) -> str:
+        row = edge.loc[layer]
+        interval = f" (95 % from {s(row.low)} to {s(row.high)})" if row.low == row.low else ""
+        return f"{s(layer)}, at {s(row['mean'])}{interval}"
+
+    sentence = (
+        f"Its mean is highest in layer {at(edge['mean'].idxmax())}, and lowest in layer "
+        f"{at(edge['mean'].idxmin())}"
+    )
+    if INTERIOR_LAYER not in table.index:
+        return f"{sentence}."
+    return f"{sentence}; in the interior it is {s(table.loc[INTERIOR_LAYER, 'mean'])}."
+
+
+@recount("figure-layers", "The mean is highest")
+def highest_layers(v: View, s: Sheet, k: int) -> str:
+    words = []
+    for d in v.run.distributions:
+        table = layers(v.run, v.method, d, max(v.run.sizes))
+        top = table["mean"].idxmax()
+        words.append(f"{WORDS[d]} points in layer {s(top)} ({s(table.loc[top, 'mean'])})")
+    return f"The mean is highest for {', '.join(words)}."
+
+
+@cache
+def long_paths(run: Run, method: str, distribution: str) -> pd.DataFrame:
+    """Counts of paths of a size (rows) by layer (columns), at the largest number of points."""
+    frame = run.counts("layers", method, distribution)
+    frame = frame[frame["n_points"] == frame["n_points"].max()]
+    return frame.groupby(["lepp_size", "layer"])["count"].sum().unstack(fill_value=0)
+
+
+def _hundred(counts: pd.DataFrame) -> tuple[int, int, float] | None:
+    """The largest size that 100 paths have or pass, how many do, and the share from the edge."""
+    for size in sorted(counts.index, reverse=True):
+        of = counts[counts.index >= size]
+        total = int(of.to_numpy().sum())
+        if total >= 100:
+            inside = int(of[INTERIOR_LAYER].sum()) if INTERIOR_LAYER in of else 0
+            return size, total, 1 - inside / total
+    return None
+
+
+@recount("longest", "Of the ")
+def longest_start(v: View, s: Sheet, k: int) -> str:
+    counts = long_paths(*v.key)
+    size, total, share = _hundred(counts)  # type: ignore[misc]
+    n = max(v.run.sizes)
+    return (
+        f"Of the {s(total)} paths of {s(size)} triangles and more at {s(n)} points, "
+        f"{s.percent(share)} start at the edge, which has {s.percent(edge_share(*v.key, n))} of "
+        "the triangles."
+    )
+
+
+@recount("longest", "At this number of points")
+def very_longest(v: View, s: Sheet, k: int) -> str:
+    counts = long_paths(*v.key)
+    size = int(max(counts.index))
+    row = counts.loc[size]
+    total, layer = int(row.sum()), int(row.idxmax())
+    where = "in the interior" if layer == INTERIOR_LAYER else f"in layer {s(layer)}"
+    return (
+        f"At this number of points {s(total)} {plural(total, 'path has', 'paths have')} the "
+        f"largest size of all, {s(size)}, and {'starts' if total == 1 else 'most start'} {where}."
+    )
+
+
+@recount("figure-longest", "Of the longest paths")
+def longest_by_distribution(v: View, s: Sheet, k: int) -> str:
+    words = []
+    for d in v.run.distributions:
+        found = _hundred(long_paths(v.run, v.method, d))
+        if found:
+            size, _, share = found
+            words.append(f"{s.percent(share)} for {WORDS[d]} points (of {s(size)} and more)")
+    return f"Of the longest paths, so many start at the edge: {', '.join(words)}."

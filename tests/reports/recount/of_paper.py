@@ -1,0 +1,492 @@
+"""The paper's numbers beside the run's, and beside its own Table 4: published.json as JSON."""
+
+from collections import Counter
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+import statsmodels.api as sm
+from expected import Sheet, listed, plural
+from of_growth import BASES
+from of_statistics import levene
+from recounts import View, recount
+from run_data import Run, log10_chi2_tail, log10_f_tail, log10_t_tail
+from scipy import special, stats
+
+MEAN, SD = "the mean LEPP size", "its standard deviation"
+TRIANGLES, LARGEST = "the number of triangles", "the largest LEPP"
+_SHOWN, _REPETITIONS = "uniform", 40
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A published number in standard errors from ours, and the chance of more than 2."""
+
+    kind: str
+    n: int
+    z: float
+    beyond: float
+
+
+def _beyond(error: float, unit: float) -> float:
+    """Chance that a normal error and an even rounding are together beyond 2 of their joint sd."""
+    limit = 2 * np.hypot(error, unit / np.sqrt(12))
+    at = np.linspace(-unit / 2, unit / 2, 4001)
+    tails = stats.norm.sf((limit - at) / error) + stats.norm.sf((limit + at) / error)
+    return float(np.trapezoid(tails, at) / unit) if unit > 0 else float(tails[0])
+
+
+def _bootstrap(means: np.ndarray, sds: np.ndarray, seed: int) -> float:
+    """Standard deviation of ln F of Levene's test between normal replications."""
+    rng = np.random.default_rng(seed)
+    drawn = []
+    for _ in range(4000):
+        noise = rng.standard_normal((len(means), _REPETITIONS))
+        drawn.append(np.log(levene(list(means[:, None] + sds[:, None] * noise))[0]))
+    return float(np.std(drawn, ddof=1))
+
+
+def _table_4(run: Run) -> list[list[float]]:
+    return run.published["table_4_uniform"]["rows"]
+
+
+def has_published_design(run: Run, method: str) -> bool:
+    counts = run.rows(method, _SHOWN)["n_points"].value_counts().to_dict()
+    return counts == {1000 * row[0]: _REPETITIONS for row in _table_4(run)}
+
+
+@cache
+def independent(run: Run, method: str) -> list[Compared]:
+    """All independent numbers: Table 4, Levene's F, and Table 6 but for its uniform column."""
+    made = []
+    groups = run.groups(method, _SHOWN)
+    for thousands, triangles, largest, mean, sd in _table_4(run):
+        n = 1000 * thousands
+        if n not in groups:
+            continue
+        rows, r = run.rows(method, _SHOWN, n), len(groups[n])
+        ours = groups[n].std(ddof=1)
+        # The paper has no spread of these two: ours stands for both.
+        of_triangles, of_largest = (rows[c].std() for c in ("n_triangles", "max_lepp"))
+        for kind, value, at, spread, theirs, unit in (
+            (TRIANGLES, rows["n_triangles"].mean(), triangles, of_triangles, of_triangles, 0.01),
+            (LARGEST, rows["max_lepp"].mean(), largest, of_largest, of_largest, 1.0),
+            (MEAN, groups[n].mean(), mean, ours, sd, 1e-4),
+        ):
+            error = np.sqrt(spread**2 / r + theirs**2 / _REPETITIONS)
+            z = (value - at) / np.sqrt(error**2 + unit**2 / 12)
+            made.append(Compared(kind, n, z, _beyond(error, unit)))
+        error, unit = np.sqrt(0.5 / (r - 1) + 0.5 / (_REPETITIONS - 1)), 1e-4 / sd
+        z = np.log(ours / sd) / np.sqrt(error**2 + unit**2 / 12)
+        made.append(Compared(SD, n, z, _beyond(error, unit)))
+    if has_published_design(run, method):
+        printed = run.published["table_2_uniform_levene"]["f"]
+        table = np.array(_table_4(run))
+        ours = np.array([(g.mean(), g.std(ddof=1)) for g in groups.values()])
+        error = np.hypot(_bootstrap(*ours.T, 1), _bootstrap(table[:, 3], table[:, 4], 2))
+        unit = 0.01 / printed
+        f = levene(list(groups.values()))[0]
+        z = np.log(f / printed) / np.hypot(error, unit / np.sqrt(12))
+        made.append(Compared("levene", 0, float(z), _beyond(error, unit)))
+    table_6 = run.published["table_6_t_test_mean_below_4"]
+    for thousands, *row in table_6["rows"]:
+        for distribution, p in zip(table_6["columns"][1:], row, strict=True):
+            if distribution == _SHOWN or distribution not in run.distributions:
+                continue
+            group = run.groups(method, distribution).get(1000 * thousands)
+            if group is None:
+                continue
+            r = len(group)
+            published = stats.t.isf(p, _REPETITIONS - 1) / np.sqrt(_REPETITIONS)
+            ours = (4 - group.mean()) / group.std(ddof=1)
+            error = np.sqrt(0.5 / (r - 1) + 0.5 / (_REPETITIONS - 1))
+            z = float(np.log(ours / published) / error)
+            made.append(Compared("t", 1000 * thousands, z, float(2 * stats.norm.sf(2))))
+    return made
+
+
+def of_kind(run: Run, method: str, kind: str) -> np.ndarray:
+    """Differences of one kind of number, by size."""
+    return np.array([c.z for c in independent(run, method) if c.kind == kind])
+
+
+def _together(z: np.ndarray, shift: bool) -> tuple[str, float, float]:
+    """Verdict, chi-squared and log10 p of differences together."""
+    chi2 = float(z @ z)
+    p = 10 ** log10_chi2_tail(chi2, len(z))
+    common = 2 * stats.norm.sf(abs(z.sum()) / np.sqrt(len(z)))
+    verdict = "agrees"
+    if min(p, common if shift else 1.0) < 0.01:
+        verdict = "differs"
+    elif stats.chi2.cdf(chi2, len(z)) < 0.01:
+        verdict = "agrees closer than chance"
+    return verdict, chi2, log10_chi2_tail(chi2, len(z))
+
+
+def standings(run: Run) -> dict[str, int]:
+    """How many published numbers there are of each standing, counted in published.json."""
+    p = run.published
+    table_4 = 4 * len(p["table_4_uniform"]["rows"])
+    table_6 = p["table_6_t_test_mean_below_4"]
+    n_table_6 = len(table_6["rows"])
+    seven = p["table_7_uniform_regressions"]
+    models = ("linear", "quadratic", "logistic", "logarithmic")
+    of_7 = sum(len(set(seven[m]) - {"x_printed", "form"}) for m in models) + 1
+    return {
+        "independent": table_4 + 1 + n_table_6 * (len(table_6["columns"]) - 2),
+        "implied": of_7 + 1 + n_table_6,
+        "construction": 4 + 2,
+        "same": len(p["table_3_uniform_shapiro_wilk"]["rows"]),
+        "draws": 4 * len(p["table_1_uniform_runs_and_ks"]["rows"])
+        + len(p["table_3_uniform_shapiro_wilk"]["rows"]),
+    }
+
+
+@recount("scoreboard", "The paper prints")
+def printed(v: View, s: Sheet, k: int) -> str:
+    return f"The paper prints {s(sum(standings(v.run).values()))} numbers in its seven tables."
+
+
+@recount("scoreboard", ".* of them are independent")
+def counted(v: View, s: Sheet, k: int) -> str:
+    z = np.abs([c.z for c in independent(v.run, v.method)])
+    within = int((z <= 2).sum()), int(((z > 2) & (z <= 3)).sum()), int((z > 3).sum())
+    return (
+        f"{s(len(z))} of them are independent of one another and can be held against ours by their "
+        f"standard errors: {s(within[0])} within 2 (agreement), {s(within[1])} within 3 (close) "
+        f"and {s(within[2])} beyond (different)."
+    )
+
+
+@recount("scoreboard", "By chance")
+def by_chance(v: View, s: Sheet, k: int) -> str:
+    found = independent(v.run, v.method)
+    beyond = sum(abs(c.z) > 2 for c in found)
+    expected = sum(c.beyond for c in found)
+    return (
+        f"By chance {s(expected, 2e-3)} would be beyond 2; {s(beyond)} "
+        f"{plural(max(beyond, 1), 'is', 'are')}."
+    )
+
+
+@recount("scoreboard", "All together")
+def all_together(v: View, s: Sheet, k: int) -> str:
+    z = np.array([c.z for c in independent(v.run, v.method)])
+    verdict, chi2, p = _together(z, shift=False)
+    words = {
+        "agrees": "are as far from ours as chance puts them",
+        "differs": "are further from ours than chance puts them",
+        "agrees closer than chance": "are nearer to ours than chance puts them",
+    }[verdict]
+    # The bootstrap's own error is that of one number of all.
+    levene_z = of_kind(v.run, v.method, "levene")
+    slack = 0.05 * float(levene_z @ levene_z) + 1e-3
+    less = stats.chi2.cdf(chi2, len(z))
+    return (
+        f"All together they {words} (χ² = {s(chi2, slack)} on {s(len(z))} degrees of freedom; "
+        f"p = {s.p(p, 0.25 * slack)} for more, {s(less, 0.02 * slack)} for less)."
+    )
+
+
+@recount("scoreboard", "Over all groups")
+def shifts(v: View, s: Sheet, k: int) -> str:
+    each, off = [], []
+    for kind in (MEAN, SD, TRIANGLES, LARGEST):
+        z = of_kind(v.run, v.method, kind)
+        shift = z.sum() / np.sqrt(len(z))
+        log_p = log10_chi2_tail(shift * shift, 1)
+        each.append(f"{kind} {s(shift)} (p = {s.p(log_p, 1e-6)})")
+        if log_p < -2:
+            off.append(kind)
+    which = (
+        f"{listed(off)} {plural(len(off), 'is', 'are')} shifted to one side"
+        if off
+        else "no kind of number is shifted to one side by more than chance"
+    )
+    return f"Over all groups {which}; ours less the paper's, in standard errors: {listed(each)}."
+
+
+@recount("scoreboard", "Not counted are")
+def not_counted(v: View, s: Sheet, k: int) -> str:
+    n = standings(v.run)
+    return (
+        f"Not counted are {s(n['implied'])} that follow from the paper's own Table 4, "
+        f"{s(n['construction'])} that every run of this design gives, {s(n['same'])} that stand "
+        f"beside the p-value of the same test and {s(n['draws'])} that are random draws, which no "
+        "other run can repeat."
+    )
+
+
+@cache
+def implausible(run: Run, method: str) -> int | None:
+    """Draws that are not plausible beside ours; None if none can be compared."""
+    odd = number = 0
+    printed = run.published["table_1_uniform_runs_and_ks"]["rows"]
+    of_size = [1000 * row[0] for row in _table_4(run) if _possible(run, 1000 * row[0])[0] == 8]
+    sets = run.point_sets
+    sets = sets[(sets["distribution"] == _SHOWN) & sets["n_points"].isin(of_size)]
+    for kind, columns in (("runs", (1, 2)), ("ks", (3, 4))):
+        theirs = [row[c] for row in printed for c in columns]
+        ours = sets[[f"{kind}_p_x", f"{kind}_p_y"]].to_numpy().ravel()
+        ours = ours[~np.isnan(ours)]
+        if len(ours):
+            number += len(theirs)
+            p = stats.mannwhitneyu(theirs, ours, method="asymptotic").pvalue
+            odd += len(theirs) if p < 0.01 else 0
+    for group, _, p in run.published["table_3_uniform_shapiro_wilk"]["rows"]:
+        ours = run.groups(method, _SHOWN).get(1000 * int(group[1:]))
+        if ours is not None:
+            z = (special.ndtri(stats.shapiro(ours).pvalue) - special.ndtri(p)) / np.sqrt(2)
+            number, odd = number + 1, odd + (abs(z) > 3)
+    return int(odd) if number else None
+
+
+@recount("scoreboard", "(All draws|.* draws? (is|are) not plausible)")
+def draws(v: View, s: Sheet, k: int) -> str:
+    odd = implausible(v.run, v.method)
+    if not odd:
+        return "All draws are plausible beside ours."
+    return f"{s(odd)} {plural(odd, 'draw')} {plural(odd, 'is', 'are')} not plausible beside ours."
+
+
+@recount("scoreboard", ".* of all numbers cannot")
+def not_comparable(v: View, s: Sheet, k: int) -> str:
+    # Degrees of freedom, F and p of Tables 2 and 5, and all of Table 7.
+    of_table_6 = len(v.run.published["table_6_t_test_mean_below_4"]["rows"])
+    seven = standings(v.run)["implied"] - 1 - of_table_6
+    n = 0 if has_published_design(v.run, v.method) else 8 + seven
+    return f"{s(n)} of all numbers cannot be compared with this design."
+
+
+@recount("scoreboard", ".* of all numbers belong")
+def not_run(v: View, s: Sheet, k: int) -> str:
+    sizes = set(v.run.groups(v.method, _SHOWN))
+    p = v.run.published
+    missing = 4 * sum(1000 * row[0] not in sizes for row in _table_4(v.run))
+    rows = p["table_3_uniform_shapiro_wilk"]["rows"]
+    missing += 2 * sum(1000 * int(group[1:]) not in sizes for group, *_ in rows)
+    table_6 = p["table_6_t_test_mean_below_4"]
+    for distribution in table_6["columns"][1:]:
+        there = (
+            set(v.run.groups(v.method, distribution))
+            if distribution in v.run.distributions
+            else set()
+        )
+        missing += sum(1000 * row[0] not in there for row in table_6["rows"])
+    if not len(_sets_of_table_1(v.run)):
+        missing += 4 * len(p["table_1_uniform_runs_and_ks"]["rows"])
+    return f"{s(missing)} of all numbers belong to groups that this run does not have."
+
+
+def _sets_of_table_1(run: Run) -> np.ndarray:
+    of_size = [1000 * row[0] for row in _table_4(run) if _possible(run, 1000 * row[0])[0] == 8]
+    sets = run.point_sets
+    return sets[(sets["distribution"] == _SHOWN) & sets["n_points"].isin(of_size)].to_numpy()
+
+
+@recount("table-4", "Over all groups together")
+def group_by_group(v: View, s: Sheet, k: int) -> str:
+    words = []
+    for kind in (MEAN, SD, TRIANGLES, LARGEST):
+        z = of_kind(v.run, v.method, kind)
+        verdict, chi2, p = _together(z, shift=True)
+        words.append(
+            f"{kind} {verdict} (χ² = {s(chi2)} on {s(len(z))} degrees of freedom, p = "
+            f"{s.p(p, 1e-6)}; largest difference {s(np.abs(z).max())} standard errors)"
+        )
+    return f"Over all groups together, {listed(words)}."
+
+
+@recount("figure-means", ".* group means? lie")
+def group_means(v: View, s: Sheet, k: int) -> str:
+    z = np.abs(of_kind(v.run, v.method, MEAN))
+    return (
+        f"{s((z <= 2).sum())} of {s(len(z))} {plural(len(z), 'group mean')} lie within 2 standard "
+        f"errors of the published one and {s((z <= 3).sum())} within 3; the largest difference is "
+        f"{s(z.max())}."
+    )
+
+
+@recount("figure-means", "The mean goes")
+def mean_goes(v: View, s: Sheet, k: int) -> str:
+    groups = v.run.groups(v.method, v.distribution)
+    a, b = min(groups), max(groups)
+    return (
+        f"The mean goes from {s(groups[a].mean())} at {s(a)} points to {s(groups[b].mean())} at "
+        f"{s(b)}."
+    )
+
+
+@recount("key-figures", "(The paper's triangulations are not|The mean LEPP sizes that the paper)")
+def which_triangulation(v: View, s: Sheet, k: int) -> str:
+    tests = {m: _together(of_kind(v.run, m, MEAN), shift=True) for m in v.run.methods}
+    n = len(of_kind(v.run, "incremental", MEAN))
+    verdict, chi2, p = tests["incremental"]
+    numbers = f"(chi-squared {s(chi2)} on {s(n)} degrees of freedom, p = {s.p(p, 1e-6)})"
+    plain = "plain insertion, which never flips an edge"
+    agrees = verdict != "differs"
+    if not agrees or verdict != "agrees":
+        return (
+            f"The mean LEPP sizes that the paper prints do not agree with this run's {plain} "
+            f"{numbers}."
+        )
+    if len(tests) == 1:
+        return f"The mean LEPP sizes that the paper prints agree with {plain} {numbers}."
+    if tests["delaunay"][0] == "agrees":
+        return (
+            f"The mean LEPP sizes that the paper prints agree with {plain}, and with Delaunay "
+            "triangulations as well: this run is too small to tell which the paper used."
+        )
+    return (
+        "The paper's triangulations are not Delaunay triangulations: the mean LEPP sizes that it "
+        f"prints are those of {plain} {numbers}."
+    )
+
+
+@recount("key-figures", "The usual choice")
+def no_delaunay(v: View, s: Sheet, k: int) -> str:
+    was = "was part" if "delaunay" in v.run.methods else "was not part"
+    return f"The usual choice, a Delaunay triangulation, {was} of this run."
+
+
+@recount("key-figures", "Delaunay triangulations of the same")
+def beside_delaunay(v: View, s: Sheet, k: int) -> str:
+    groups = v.run.groups("delaunay", _SHOWN)
+    printed = {1000 * row[0]: row[3] for row in _table_4(v.run)}
+    n = max(set(groups) & set(printed))
+    return (
+        f"Delaunay triangulations of the same {s(n)} points have a mean of {s(groups[n].mean())}, "
+        f"where the paper prints {s(printed[n])}."
+    )
+
+
+def _fit(model: str, x: np.ndarray, m: np.ndarray, sd: np.ndarray) -> dict[str, float]:
+    """Regression of groups of which means and sds are known, as weighted least squares of means."""
+    z, spread = m, sd
+    if model == "logistic":
+        # To the second order of the spread inside a group, which is small.
+        slope, bend = 4 / (m * (4 - m)), -1 / m**2 + 1 / (4 - m) ** 2
+        z, spread = np.log(m / (4 - m)) + bend * sd**2 / 2, slope * sd
+    basis = np.column_stack(BASES[model](x))
+    if model == "logarithmic":
+        basis[:, 1] /= np.log(2)
+    found = sm.OLS(z, basis).fit()
+    n, d1 = _REPETITIONS * len(x), basis.shape[1] - 1
+    left = _REPETITIONS * found.ssr + (_REPETITIONS - 1) * float((spread**2).sum())
+    explained = _REPETITIONS * found.ess
+    f = explained / d1 / (left / (n - d1 - 1))
+    r2 = 1 - left / (n - d1 - 1) / ((left + explained) / (n - 1))
+    made = {str(k): float(b) for k, b in enumerate(found.params)}
+    return made | {"adj_r2": r2, "log10_p": log10_f_tail(f, d1, n - d1 - 1)}
+
+
+def _printed_numbers(run: Run) -> list[tuple[float, float, object]]:
+    """Printed number, half a unit, and the function of means and sds that gives it."""
+    p, table = run.published, np.array(_table_4(run), dtype=float)
+    x, root = table[:, 0], np.sqrt(_REPETITIONS)
+    made: list[tuple[float, float, object]] = []
+
+    def f(m: np.ndarray, sd: np.ndarray) -> float:
+        return _REPETITIONS * m.var(ddof=1) / float((sd**2).mean())
+
+    made.append((p["table_5_uniform_anova"]["f"], 0.005, f))
+    for row in p["table_6_t_test_mean_below_4"]["rows"]:
+        at = int(np.flatnonzero(x == row[0])[0])
+        half = 0.005 * 10.0 ** np.floor(np.log10(row[1]))
+
+        def p_below(m: np.ndarray, sd: np.ndarray, i: int = at) -> float:
+            return 10 ** log10_t_tail((4 - m[i]) / sd[i] * root, _REPETITIONS - 1)
+
+        made.append((row[1], half, p_below))
+    terms = {
+        "linear": (("intercept", 3, 0), ("x", 8, 1)),
+        "quadratic": (("intercept", 3, 0), ("x", 6, 1), ("x2", None, 2)),
+        "logistic": (("a", 3, 0), ("b", 6, 1)),
+        "logarithmic": (("c", 3, 0), ("d", 4, 1)),
+    }
+    for model, names in terms.items():
+        seven = p["table_7_uniform_regressions"][model]
+        for name, places, place in names:
+            value = seven[name]
+            half = (
+                0.5 * 10.0**-places
+                if places is not None
+                else 0.005 * 10.0 ** np.floor(np.log10(abs(value)))
+            )
+            made.append((value, half, lambda m, sd, w=model, i=place: _fit(w, x, m, sd)[str(i)]))
+        made.append((seven["adj_r2"], 0.005, lambda m, sd, w=model: _fit(w, x, m, sd)["adj_r2"]))
+        half = 0.005 * 10.0 ** np.floor(np.log10(seven["p"]))
+        made.append((seven["p"], half, lambda m, sd, w=model: 10 ** _fit(w, x, m, sd)["log10_p"]))
+    return made
+
+
+@cache
+def consistent_numbers(run: Run) -> tuple[int, int]:
+    """Numbers that follow from Table 4, and those that its rounding allows, by its corners."""
+    table = np.array(_table_4(run), dtype=float)
+    m, sd, half = table[:, 3], table[:, 4], 5e-5
+    fits = 0
+    numbers = _printed_numbers(run)
+    for value, unit, function in numbers:
+        slopes = []
+        for which in (0, 1):
+            for i in range(len(m)):
+                step = np.zeros(len(m))
+                step[i] = half / 4
+                up, down = (
+                    (m + sign * step, sd) if which == 0 else (m, sd + sign * step)
+                    for sign in (1, -1)
+                )
+                slopes.append(np.sign(function(*up) - function(*down)))  # type: ignore[operator]
+        way = np.array(slopes).reshape(2, -1) * half
+        ends = [function(m + sign * way[0], sd + sign * way[1]) for sign in (-1, 1)]  # type: ignore[operator]
+        fits += ends[0] <= value + unit and ends[1] >= value - unit
+    # Its p that is printed as zero is zero to four decimals.
+    fits += log10_f_tail(_REPETITIONS * m.var(ddof=1) / float((sd**2).mean()), 19, 780) < -5
+    return len(numbers) + 2, int(fits)
+
+
+@recount("consistency", ".* published numbers? of Tables")
+def follows(v: View, s: Sheet, k: int) -> str:
+    number, fits = consistent_numbers(v.run)
+    return (
+        f"{s(number)} published numbers of Tables 5, 6 and 7 follow from the means and standard "
+        f"deviations of the paper's own Table 4; {'all' if fits == number else s(fits)} of them "
+        "lie in the range that the rounding of Table 4 leaves open."
+    )
+
+
+@recount("consistency", "1 number is a misprint")
+def misprint(v: View, s: Sheet, k: int) -> str:
+    table = np.array(_table_4(v.run), dtype=float)
+    x, m = table[:, 0], table[:, 3]
+    weights = (x - x.mean()) / ((x - x.mean()) ** 2).sum()
+    slope, off = weights @ m, 5e-5 * np.abs(weights).sum()
+    printed = v.run.published["table_7_uniform_regressions"]["linear"]["x_printed"]
+    return (
+        f"1 number is a misprint, whatever the data were: {printed:.3e} (linear, b, as printed), "
+        f"where Table 4 gives {s(slope - off)} to {s(slope + off)}."
+    )
+
+
+@cache
+def _possible(run: Run, n: int) -> tuple[int, float]:
+    """Printed runs p-values that a set of n points can have, and how many would be by chance."""
+    sd = np.sqrt(n * (n - 2) / (4 * (n - 1)))
+    lattice = Counter(f"{p:.4f}" for p in stats.norm.sf(np.arange(5 * int(sd)) / sd) * 2)
+    rows = run.published["table_1_uniform_runs_and_ks"]["rows"]
+    printed = [f"{row[c]:.4f}" for row in rows for c in (1, 2)]
+    return sum(p in lattice for p in printed), len(printed) * len(lattice) / 10_001
+
+
+@recount("table-1-sets", "The 8 that")
+def table_1_sets(v: View, s: Sheet, k: int) -> str:
+    found = {1000 * row[0]: _possible(v.run, 1000 * row[0]) for row in _table_4(v.run)}
+    fitting = {n: chance for n, (hits, chance) in found.items() if hits == 8}
+    most = max(hits for hits, _ in found.values() if hits < 8)
+    return (
+        f"The {s(8)} that Table 1 prints are all possible for sets of "
+        f"{listed([s(n) for n in fitting])} points ({listed([s(c) for c in fitting.values()])} "
+        f"would be by chance), and at most {s(most)} of them for any other size: Table 1 tests "
+        "sets of that group, and is compared with ours of that size."
+    )
