@@ -111,16 +111,17 @@ class FigureDownloads {
       this.button("svg", title, () => this.saveImage(figure, "svg")),
       this.button("png", title, () => this.saveImage(figure, "png")),
       ...tables.map((host) => this.button("csv", host.dataset.caption ?? title,
-        () => this.saveData(figure, host, tables.length > 1)))));
+        () => this.saveData(figure, host, tables.length > 1), tables.length > 1 ? `: ${host.dataset.caption}` : ""))));
   }
 
   /**
    * @param {string} kind
    * @param {string} what is saved
    * @param {() => void} save
+   * @param {string} which of several of its kind
    */
-  button(kind, what, save) {
-    const made = element("button", { type: "button", "data-save": kind, title: what }, kind.toUpperCase());
+  button(kind, what, save, which = "") {
+    const made = element("button", { type: "button", "data-save": kind, title: what }, kind.toUpperCase() + which);
     made.setAttribute("aria-label", `Download ${kind.toUpperCase()} of: ${what}`);
     made.addEventListener("click", save);
     return made;

@@ -51,7 +51,8 @@ TRIANGULATIONS = Declaration(
         _REPLICATE,
         *_described(Measures, "n_triangles", "mean_lepp", "sd_lepp", "max_lepp"),
     ),
-    note="One row a triangulation. results.parquet beside this page has more columns of each.",
+    note="One row a triangulation. results.parquet, written with this page, has more columns of "
+    "each.",
 )
 
 POINT_SETS = Declaration(

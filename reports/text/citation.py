@@ -14,6 +14,7 @@ SOFTWARE_TITLE = (
     "lepp-study: a distributed study of the longest-edge propagation path of triangulations"
 )
 SOFTWARE_AUTHOR = "The lepp-study developers"
+SOFTWARE_LICENSE = "BSD-3-Clause"
 
 _PACKAGE = "lepp-study"
 
@@ -40,7 +41,7 @@ def report_entry(title: str, design: Design, manifest: Mapping) -> str:
     )
     return _entry(
         "misc",
-        f"lepp-study-{design.seed}",
+        f"lepp-study-seed-{design.seed}",
         {
             "author": f"{{{SOFTWARE_AUTHOR}}}",
             "title": f"{{{SOFTWARE_TITLE}}}",

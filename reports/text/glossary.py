@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from markupsafe import Markup, escape
 
+from lepp import INTERIOR_LAYER
 from lepp.theory import LEAST_P_TEXT
 
 
@@ -69,6 +70,22 @@ TERMS = (
         r"|\bp(?= is \d)",
         "The chance that a triangle's path ends at its first step: the share of type C among the "
         "neighbours across longest edges. The theorems take it to be the same at every step.",
+    ),
+    Term(
+        "r",
+        r"(?:(?<=share of )|(?<=with ))r\b",
+        "The chance that a step ends a path, over all steps of all paths together: one over the "
+        "mean "
+        "size less one. Theorem 1 with it has the measured mean by construction.",
+    ),
+    Term(
+        "interior",
+        r"(?<=in the )interiors?\b|(?<=Of their )interiors\b",
+        f"The triangles that are {INTERIOR_LAYER} or more steps across edges away from a triangle "
+        "at "
+        "the hull. Closer ones have paths that feel the edge: with many Delaunay points the means "
+        "of "
+        "the layers come to rest some way before that.",
     ),
     Term(
         "plain insertion",

@@ -1,5 +1,6 @@
 """Does it agree with the paper: the scoreboard, Table 4, and the paper held against itself."""
 
+import math
 from collections.abc import Iterator
 
 import pandas as pd
@@ -244,8 +245,8 @@ def _independent(evidence: Evidence, view: View, total: pd.Series) -> Iterator[s
 def _shifts(rows: pd.DataFrame) -> str:
     """Say whether numbers of one kind are off to one side."""
     each = [
-        f"{_QUANTITIES[row.quantity]} {show(row.shift, 'fixed2')} (p\u00a0=\u00a0"
-        f"{show(row.shift_p, 'p')})"
+        f"{_QUANTITIES[row.quantity]} {show(row.shift, 'fixed2')} "
+        f"({p_is(math.log10(row.shift_p) if row.shift_p > 0 else -math.inf)})"
         for row in rows.itertuples()
     ]
     off = [

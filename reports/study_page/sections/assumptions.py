@@ -11,7 +11,7 @@ from study.analysis.group_assumptions import LEVENE, QQ, SHAPIRO
 from study.analysis.group_summaries import GROUPS
 from study.statistics.thresholds import ONE_IN_TWENTY, SIGNIFICANCE
 from study.statistics.verdicts import REJECTED
-from study.text.numbers import count, none_or, show
+from study.text.numbers import count, none_or, p_is, show
 
 
 def assumptions(evidence: Evidence) -> Subsection:
@@ -48,7 +48,7 @@ def _assumptions(evidence: Evidence, view: View) -> list[str] | None:
         first = levene.first
         numbers = (
             f"Levene's F({first['df_group']}, {first['df_residual']}) is "
-            f"{show(first['f'], 'fixed2')}, p\u00a0=\u00a0{show(first['log10_p'], 'log10p')}"
+            f"{show(first['f'], 'fixed2')}, {p_is(first['log10_p'])}"
         )
         if unequal.all():
             sentences.append(

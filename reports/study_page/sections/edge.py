@@ -19,7 +19,7 @@ from study.analysis.part_means import (
 )
 from study.analysis.parts import INTERIOR, WHOLE
 from study.statistics.verdicts import REJECTED
-from study.text.numbers import count, show
+from study.text.numbers import count, p_is, show
 
 #: Paths of a size that so many at least have are called long.
 _LONG = 100
@@ -120,7 +120,7 @@ def _one_mean(evidence: Evidence, view: View) -> str | None:
         f"{show(row['largest_difference'], 'fixed4')} apart"
     )
     opening = f"At {row['n_points']:,} points the interiors of the {row['distributions']} "
-    p = f"p\u00a0=\u00a0{show(row['log10_p'], 'log10p')}"
+    p = p_is(row["log10_p"])
     if row["one_mean"] == REJECTED:
         return f"{opening}distributions do not have one mean ({p}): {which}."
     return (

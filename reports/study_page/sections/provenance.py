@@ -8,7 +8,7 @@ from reports.page.blocks import Facts, Quotation, Section, Subsection, TableBloc
 from reports.page.evidence import Evidence
 from reports.page.views import distribution_word
 from reports.study_page.tables import FAILURES
-from reports.text.citation import paper_entry, report_entry
+from reports.text.citation import SOFTWARE_LICENSE, paper_entry, report_entry
 from reports.text.words import TITLE
 from study.analysis.analyse import MISSING
 from study.analysis.group_summaries import OVERVIEW
@@ -49,7 +49,12 @@ def _design(evidence: Evidence) -> Facts:
         ("Triangulations", f"{design.n_triangulations:,} of {design.n_points:,} points in all"),
     ]
     if "bivariate_normal" in design.distributions:
-        facts.append(("Correlation of x and y", f"{design.correlation:g} (bivariate normal)"))
+        facts.append(
+            (
+                "Correlation of x and y",
+                f"{design.correlation:g} (bivariate normal; assumed, as the paper names none)",
+            )
+        )
     facts.append(
         (
             "Random numbers",
@@ -123,6 +128,11 @@ def _environments(evidence: Evidence) -> tuple:
     return tuple(blocks)
 
 
+def _checksums(evidence: Evidence) -> list[tuple[str, str]]:
+    """Name the files of results with the sums by which they can be told from others."""
+    return [(f"SHA-256 of {name}", s) for name, s in evidence.manifest.get("sha256", {}).items()]
+
+
 def _citations(evidence: Evidence) -> tuple:
     return (
         common(
@@ -130,4 +140,5 @@ def _citations(evidence: Evidence) -> tuple:
         ),
         Quotation("This report, BibTeX", report_entry(TITLE, evidence.design, evidence.manifest)),
         Quotation("The paper, BibTeX", paper_entry(CITATION)),
+        Facts((("Licence of the software", SOFTWARE_LICENSE), *_checksums(evidence))),
     )

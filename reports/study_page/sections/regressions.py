@@ -45,7 +45,7 @@ from study.statistics.limit_verdict import LEVEL as IS_LEVEL
 from study.statistics.models import LINEAR_MODELS, MODELS
 from study.statistics.thresholds import LEVEL_PER_DECADE, REFUTED_BELOW, SIGNIFICANCE
 from study.statistics.verdicts import NO, YES
-from study.text.numbers import count, listed, show, ten_to
+from study.text.numbers import count, listed, p_is, show, ten_to
 
 #: Whose mean a part's is.
 _MEAN_OF = {WHOLE: "the mean of the whole mesh", INTERIOR: "the mean of the interior"}
@@ -207,7 +207,7 @@ def trend_sentence(evidence: Evidence, view: View) -> str | None:
     if test is None or len(groups) < 2:
         return None
     first, last = groups.first, groups.last
-    welch = f"Welch's analysis of variance, p\u00a0=\u00a0{show(test['log10_p'], 'log10p')}"
+    welch = f"Welch's analysis of variance, {p_is(test['log10_p'])}"
     if test["p"] >= SIGNIFICANCE:
         return (
             f"The mean does not depend on the number of points, as far as this run can tell "

@@ -6,6 +6,7 @@ from frames import design
 
 from reports.text.citation import (
     SOFTWARE_AUTHOR,
+    SOFTWARE_LICENSE,
     SOFTWARE_TITLE,
     paper_entry,
     paper_in_words,
@@ -25,6 +26,7 @@ def test_the_software_is_cited_as_its_citation_file_says() -> None:
     file = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
     assert file["title"] == SOFTWARE_TITLE
     assert [author["name"] for author in file["authors"]] == [SOFTWARE_AUTHOR]
+    assert file["license"] == SOFTWARE_LICENSE
     assert "date-released" not in file  # with one, the entry of the report needs its year
     assert file["version"] in versions({})
 
@@ -33,7 +35,7 @@ def test_the_entry_of_a_report_names_what_it_takes_to_make_it_again() -> None:
     entry = report_entry(
         "How far?", design(seed=7, methods=("a_b",)), manifest("1.2", "1.2", "1.3")
     )
-    assert entry.startswith("@misc{lepp-study-7,\n")
+    assert entry.startswith("@misc{lepp-study-seed-7,\n")
     assert "  version = {1.2, 1.3},\n" in entry
     assert "seed 7; methods a\\_b; distributions uniform, exponential" in entry
     assert "4 numbers of points, 1000 to 8000; 6 repetitions" in entry

@@ -30,6 +30,11 @@ def terms_in(text: str) -> list[str]:
         ("p is 0.41", [("p", "p")]),
         ("a test (p\u00a0=\u00a00.02)", []),
         ("up to a step", []),
+        ("a share of r\u00a0=\u00a00.48 ends", [("r", "r")]),
+        ("with r\u00a0=\u00a00.48 of all steps", [("r", "r")]),
+        ("Spearman's r or our r", []),
+        ("paths in the interior", [("interior", "interior")]),
+        ("whose longest edge is interior", []),
     ],
 )  # fmt: skip
 def test_words_of_the_field_are_told_from_others(text: str, found: list[tuple[str, str]]) -> None:
