@@ -105,7 +105,6 @@ def _sizes(evidence: Evidence) -> FigureBlock:
         title="Sizes of terminal-edge regions",
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
-        reading=f"Bars are {LEVEL} intervals, mostly narrower than the markers. The vertical scale "
-        "is logarithmic.",
+        reading=f"Bars are {LEVEL} intervals. The vertical scale is logarithmic.",
         data=(TableBlock(REGION_SIZES, "sizes of the regions"),),
     )
