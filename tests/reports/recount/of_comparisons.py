@@ -117,16 +117,22 @@ def analogous(v: View, s: Sheet, k: int) -> str:
         for pair, word in pairs(v.run, v.method, WHOLE)
         if v.distribution in (pair.first, pair.second)
     ]
-    start = "Results are analogous for all distributions: their means differ by less than 1 %"
+    start = "Results and conclusions are analogous for all the distributions"
     if not of:
         return f"{start} | not tested | the run has too few triangulations"
     far = max((pair for pair, _ in of), key=lambda pair: abs(pair.relative))
     other = far.second if far.first == v.distribution else far.first
-    alike = sum(word == "alike" for _, word in of)
+    each = []
+    for key, words in _WORDS.items():
+        number = sum(word == key for _, word in of)
+        if number:
+            words = words.removesuffix(" and leave room for less than 1 %")
+            each.append(f"{s(number)} {plural(number, 'shows', 'show')} {words}")
     return (
-        f"{start} | {equivalent([pair for pair, _ in of])} | {s(len(of))} comparisons with the "
-        f"others: {s(alike)} alike; the largest difference is "
-        f"{s.percent(abs(far.relative))}, from the {WORDS[other]} distribution at {s(far.n)} points"
+        f"{start} | {equivalent([pair for pair, _ in of])} | our criterion, means that "
+        f"differ by less than 1 %: of {s(len(of))} comparisons with the others, "
+        f"{listed(each)}; the largest difference is {s.percent(abs(far.relative))}, "
+        f"from the {WORDS[other]} distribution at {s(far.n)} points"
     )
 
 

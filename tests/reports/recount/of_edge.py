@@ -75,10 +75,10 @@ def one_mean(v: View, s: Sheet, k: int) -> str:
         f"{s(y[high] - y[low])} apart."
     )
     if p < np.log10(0.05):
-        return f"{start} do not have one mean (p = {s.p(p, 1e-5)}): {which}"
+        return f"{start} do not have one mean ({s.p_is(p, 1e-5)}): {which}"
     half = t95(df_error) / np.sqrt(w.sum())
     return (
-        f"{start} may have one mean (p = {s.p(p, 1e-5)}), {s(mean)} (95 % from {s(mean - half)} to "
+        f"{start} may have one mean ({s.p_is(p, 1e-5)}), {s(mean)} (95 % from {s(mean - half)} to "
         f"{s(mean + half)}): {which}"
     )
 
