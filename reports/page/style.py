@@ -42,6 +42,8 @@ _TICK_FORMATS = [
     {"dtickrange": [900, None], "value": "~s"},
 ]
 _POWERS = range(-20, 21)
+#: Factor beyond which a linear axis squeezes the smaller sizes together.
+_WIDE = 50
 
 
 @dataclass(frozen=True)
@@ -114,6 +116,14 @@ def powers(title: str, **more: Any) -> Spec:  # noqa: ANN401 - as above
         tickformatstops=[],
         **more,
     )
+
+
+def number_of_points(sizes: Iterable[int], **more: Any) -> Spec:  # noqa: ANN401 - as above
+    """Axis of numbers of points: logarithmic where they span more than a factor of 50."""
+    title, seen = "Number of points", list(sizes)
+    if seen and max(seen) > _WIDE * min(seen):
+        return powers(title, **more)
+    return axis(title, **more)
 
 
 def percents(title: str, **more: Any) -> Spec:  # noqa: ANN401 - as above

@@ -59,7 +59,6 @@ BUILDERS = (
     terminal_regions.region_sizes,
     method_comparison.methods,
     method_comparison.growth,
-    distribution_comparison.means,
     distribution_comparison.distributions,
     distribution_comparison.analogous,
     worst_case_strip.worst_case,

@@ -10,7 +10,7 @@ from study.analysis.building import Study, builds
 from study.analysis.parts import INTERIOR_NOTE, PART, PARTS
 from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Declaration, Row, Table
 from study.statistics.groups import Groups
-from study.statistics.intervals import mean_interval, t_quantile
+from study.statistics.intervals import t_quantile
 from study.statistics.multiple_testing import holm
 from study.statistics.tails import log10_t_tail
 from study.statistics.thresholds import EQUIVALENT_WITHIN, LEVEL, SIGNIFICANCE
@@ -55,23 +55,6 @@ DISTRIBUTIONS_COMPARED = Declaration(
     f"at {SIGNIFICANCE}; {LITTLE}: a difference is detected, and the interval lies within "
     f"{MARGIN}; {DIFFER}: a difference is detected, and the interval reaches beyond; {UNDECIDED}: "
     f"none is detected, but the interval reaches beyond. {INTERIOR_NOTE}",
-)
-
-DISTRIBUTION_MEANS = Declaration(
-    "distribution_means",
-    "Mean LEPP size by distribution and part of the mesh",
-    (
-        METHOD,
-        PART,
-        DISTRIBUTION,
-        N_POINTS,
-        Column("triangulations", "Triangulations", "", "int"),
-        Column("mean", "Mean LEPP", "triangles", "fixed4"),
-        Column("low", f"{LEVEL} from", "triangles", "fixed4"),
-        Column("high", f"{LEVEL} to", "triangles", "fixed4"),
-        Column("half", "Half of the interval", "triangles", "fixed4"),
-    ),
-    note="Means of the triangulations' mean LEPP sizes, with their t intervals. " + INTERIOR_NOTE,
 )
 
 ANALOGOUS = Declaration(
@@ -174,30 +157,6 @@ def verdict(low: float, high: float, p: float) -> str:
     if p < SIGNIFICANCE:
         return LITTLE if within else DIFFER
     return ALIKE if within else UNDECIDED
-
-
-@builds(DISTRIBUTION_MEANS)
-def means(study: Study) -> Iterator[Table]:
-    """Give the mean of every distribution at every number of points, in both parts of the mesh."""
-    yield DISTRIBUTION_MEANS.table(_means(study))
-
-
-def _means(study: Study) -> Iterator[Row]:
-    for method, distribution in study.data.populations:
-        for part in PARTS:
-            for size, values in _by_size(study.data.groups(method, distribution, part)).items():
-                mean, low, high = mean_interval(values)
-                yield {
-                    "method": method,
-                    "part": part,
-                    "distribution": distribution,
-                    "n_points": size,
-                    "triangulations": len(values),
-                    "mean": mean,
-                    "low": low,
-                    "high": high,
-                    "half": (high - low) / 2,
-                }
 
 
 @builds(ANALOGOUS, needs=(DISTRIBUTIONS_COMPARED,))

@@ -65,6 +65,8 @@ def edge_limit(model: LinearModel, whole: Groups, interior: Groups) -> EdgeLimit
     Both numbers are weighted sums of the triangulations' means, so that their difference is one,
     and its variance the sum of the variances inside the groups.
     """
+    if not len(whole) or not len(interior):
+        raise NotEnough("no triangulation has an interior")
     at = np.searchsorted(whole.n_points, interior.n_points)
     if whole.counts[at].tolist() != interior.counts.tolist() or (whole.counts < 2).any():
         raise NotEnough("some triangulations have no interior, or a size has only one")

@@ -441,7 +441,10 @@ def _beside(evidence: Evidence, view: View) -> style.Panel:
             )
         )
     return style.Panel(
-        traces, style.axis("Number of points"), style.axis("Mean LEPP size"), height=2
+        traces,
+        style.number_of_points(evidence.design.sizes),
+        style.axis("Mean LEPP size"),
+        height=2,
     )
 
 
@@ -458,7 +461,7 @@ def _differences(evidence: Evidence, view: View) -> style.Panel:
     )
     return style.Panel(
         [bars],
-        style.axis("Number of points", matches="x"),
+        style.number_of_points(evidence.design.sizes, matches="x"),
         style.axis("Ours − paper’s<br>(standard errors)", range=[-furthest, furthest]),
         levels=(style.Level(-AGREES_UP_TO), style.Level(AGREES_UP_TO)),
     )

@@ -4,11 +4,9 @@ from reports.page import style
 from reports.page.blocks import ALWAYS, FigureBlock, Section, Subsection, TableBlock, per_view
 from reports.page.evidence import Evidence
 from reports.page.style import Spec
-from reports.page.views import View, distribution_name, distribution_word
+from reports.page.views import View, distribution_name
 from reports.study_page.tables import SAMPLED_POINTS, TRIANGULATIONS
-from reports.text.words import LEVEL
 from study.analysis.group_summaries import GROUPS
-from study.analysis.table import METHOD
 from study.text.numbers import count, listed, show
 
 
@@ -23,7 +21,7 @@ def section(evidence: Evidence) -> Section:
             Subsection(
                 "means",
                 "The mean of every triangulation",
-                (_distributions(evidence), _figure_4(evidence), _figure_5(evidence)),
+                (_figure_4(evidence), _figure_5(evidence)),
             ),
         ),
     )
@@ -80,67 +78,6 @@ def _shape(name: str, correlation: float) -> str:
     }[name]
 
 
-def _distributions(evidence: Evidence) -> FigureBlock:
-    """Draw the means of all distributions, triangulated by the view's method."""
-
-    def draw(view: View) -> Spec | None:
-        traces = []
-        for series, name in enumerate(evidence.design.distributions):
-            groups = evidence.rows(GROUPS, View(view.method, name))
-            traces.append(
-                style.scatter(
-                    x=groups.column("n_points"),
-                    y=groups.column("mean_lepp"),
-                    mode="lines+markers",
-                    name=distribution_name(name),
-                    line=style.line(series),
-                    marker=style.marker(series),
-                    error_y=style.interval(
-                        groups["mean_lepp"],
-                        groups["mean_low"],
-                        groups["mean_high"],
-                        style.SERIES[series % len(style.SERIES)],
-                    ),
-                    hovertemplate="%{x:,} points: %{y:.4f}<extra>"
-                    + distribution_name(name)
-                    + "</extra>",
-                )
-            )
-        return style.plot(
-            *traces,
-            xaxis=style.axis("Number of points"),
-            yaxis=style.axis("Mean LEPP size"),
-            height=460,
-        )
-
-    def say(view: View) -> str | None:
-        largest = max(evidence.design.sizes)
-        rows = evidence.rows(GROUPS, method=view.method, n_points=largest).frame
-        rows = rows[rows["mean_lepp"].notna()]
-        if rows.empty:
-            return None
-        means = [
-            f"{show(row.mean_lepp, 'fixed4')} ({distribution_word(row.distribution)})"
-            for row in rows.itertuples()
-        ]
-        if len(means) == 1:
-            return f"At {largest:,} points the mean LEPP size is {means[0]}."
-        gap = rows["mean_lepp"].max() - rows["mean_lepp"].min()
-        return (
-            f"At {largest:,} points the mean LEPP sizes of {view.method_word} triangulations are "
-            f"{listed(means)}: they lie within {show(gap, 'fixed4')} of one another."
-        )
-
-    return FigureBlock(
-        id="figure-distributions",
-        title="Mean LEPP size in all distributions",
-        specs=per_view(evidence.views, draw),
-        alternatives=per_view(evidence.views, say),
-        reading=f"Means of the groups with {LEVEL} intervals.",
-        data=(TableBlock(GROUPS, "the groups of all distributions", follows=(METHOD.name,)),),
-    )
-
-
 def _figure_4(evidence: Evidence) -> FigureBlock:
     def draw(view: View) -> Spec | None:
         rows = evidence.rows(TRIANGULATIONS, view)
@@ -165,7 +102,7 @@ def _figure_4(evidence: Evidence) -> FigureBlock:
                 marker=style.marker(1, 7),
                 hovertemplate="%{x:,} points, mean %{y:.4f}<extra></extra>",
             ),
-            xaxis=style.axis("Number of points"),
+            xaxis=style.number_of_points(evidence.design.sizes),
             yaxis=style.axis("Mean LEPP size"),
         )
 

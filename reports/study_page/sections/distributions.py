@@ -2,16 +2,14 @@
 
 import pandas as pd
 
-from reports.page import style
-from reports.page.blocks import FigureBlock, Prose, Section, Subsection, TableBlock, per_view
+from reports.page.assembly import reference
+from reports.page.blocks import Prose, Section, Subsection, TableBlock, per_view
 from reports.page.evidence import Evidence
-from reports.page.style import Spec
-from reports.page.views import View, distribution_name, distribution_word
+from reports.page.views import View, distribution_word
 from reports.text.words import LEVEL
 from study.analysis.distribution_comparison import (
     ALIKE,
     DIFFER,
-    DISTRIBUTION_MEANS,
     DISTRIBUTIONS_COMPARED,
     LITTLE,
     MARGIN,
@@ -25,7 +23,7 @@ _OF = {WHOLE: "Of whole meshes", INTERIOR: "Of their interiors"}
 
 
 def section(evidence: Evidence) -> Section:
-    """All pairs in words, all means in one figure, the pairs in a table."""
+    """All pairs, in words and in a table."""
     return Section(
         "distributions",
         "The distributions against each other",
@@ -36,7 +34,6 @@ def section(evidence: Evidence) -> Section:
                 "All pairs, at every number of points",
                 (
                     Prose(per_view(evidence.views, lambda view: _sentences(evidence, view))),
-                    _figure(evidence),
                     TableBlock(
                         DISTRIBUTIONS_COMPARED,
                         "Every pair of distributions at every number of points",
@@ -67,7 +64,9 @@ def _sentences(evidence: Evidence, view: View) -> list[str] | None:
         if not rows.empty:
             paragraphs.append(_compared(rows.frame, f"{_OF[part]}, triangulated by the "
                                         f"{view.method_word} method,"))  # fmt: skip
-    return paragraphs or None
+    if not paragraphs:
+        return None
+    return [*paragraphs, f"{reference('figure-parts')} shows the means of all distributions."]
 
 
 def _compared(rows: pd.DataFrame, whose: str) -> str:
@@ -97,66 +96,4 @@ def _compared(rows: pd.DataFrame, whose: str) -> str:
         f"{distribution_word(furthest['distribution_2'])} against "
         f"{distribution_word(furthest['distribution_1'])} points, {furthest['n_points']:,} of "
         f"each. {outcome}{', and no difference is detected' if same else ''}."
-    )
-
-
-def _figure(evidence: Evidence) -> FigureBlock:
-    def draw(view: View) -> Spec | None:
-        parts = [
-            _panel(evidence, view, part)
-            for part in PARTS
-            if not evidence.rows(DISTRIBUTION_MEANS, method=view.method, part=part).empty
-        ]
-        return style.panels(parts, height=380 * len(parts)) if parts else None
-
-    def say(view: View) -> str | None:
-        rows = evidence.rows(DISTRIBUTION_MEANS, method=view.method, part=WHOLE)
-        if rows.empty:
-            return None
-        last = rows.frame[rows["n_points"] == rows["n_points"].max()]
-        means = [
-            f"{show(row.mean, 'fixed4')} ({distribution_word(row.distribution)})"
-            for row in last.sort_values("mean").itertuples()
-        ]
-        return f"At {last['n_points'].iloc[0]:,} points the mean LEPP sizes are {listed(means)}."
-
-    return FigureBlock(
-        id="figure-distribution-means",
-        title="Mean LEPP size by distribution of the points",
-        specs=per_view(evidence.views, draw),
-        alternatives=per_view(evidence.views, say),
-        reading=f"Bars are {LEVEL} intervals of the means. Above the whole mesh, below its "
-        "interior, where there is one.",
-        data=(TableBlock(DISTRIBUTION_MEANS, "means of all distributions", follows=("method",)),),
-    )
-
-
-def _panel(evidence: Evidence, view: View, part: str) -> style.Panel:
-    traces = []
-    for series, distribution in enumerate(evidence.design.distributions):
-        rows = evidence.rows(
-            DISTRIBUTION_MEANS, method=view.method, part=part, distribution=distribution
-        )
-        if rows.empty:
-            continue
-        name = distribution_name(distribution)
-        traces.append(
-            style.scatter(
-                x=rows.column("n_points"),
-                y=rows.column("mean"),
-                error_y={"type": "data", "array": rows.column("half"), "width": 2, "thickness": 1},
-                mode="lines+markers",
-                name=name,
-                legendgroup=distribution,
-                showlegend=part == WHOLE,
-                line=style.line(series, 1.5),
-                marker=style.marker(series, 5),
-                hovertemplate="%{x:,} points: %{y:.4f}<extra>" + name + "</extra>",
-            )
-        )
-    return style.Panel(
-        traces,
-        style.axis("Number of points", type="log", dtick="D2"),
-        style.axis("Mean LEPP size"),
-        f"{part.capitalize()} mesh" if part == WHOLE else f"{part.capitalize()}",
     )

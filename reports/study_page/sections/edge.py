@@ -25,7 +25,9 @@ from study.text.numbers import count, p_is, show
 _LONG = 100
 _DEFINITION = (
     f"The interior is all triangles that are {INTERIOR_LAYER} or more steps across edges away from "
-    "a triangle at the hull; the edge is all others."
+    "a triangle at the hull; the edge is all others. It starts there by measurement: at 10⁷ "
+    "uniform points the means of layers 20 to 23 of Delaunay meshes still are 3.55 to 3.50, and "
+    "from layer 24 on those of the inside, 3.4764."
 )
 
 
@@ -165,7 +167,7 @@ def _figure_parts(evidence: Evidence) -> FigureBlock:
         drawn = [
             style.Panel(
                 found,
-                style.powers("Number of points"),
+                style.number_of_points(evidence.design.sizes),
                 style.axis("Mean LEPP size"),
                 title=f"The {part}{' mesh' if part == WHOLE else ''}",
             )
@@ -195,8 +197,7 @@ def _figure_parts(evidence: Evidence) -> FigureBlock:
         title="Mean LEPP size of the whole mesh and of its interior",
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
-        reading=f"Dots are means over triangulations with {LEVEL} intervals; the horizontal scale "
-        "is logarithmic.",
+        reading=f"Dots are means over triangulations with {LEVEL} intervals.",
         data=(
             TableBlock(PART_MEANS, "means of the parts", follows=("method",)),
         ),
@@ -320,10 +321,12 @@ def _longest(evidence: Evidence, view: View) -> list[str] | None:
     where = (
         "in the interior" if last["layer"] == INTERIOR_LAYER else f"in layer {last['layer']}"
     )  # fmt: skip
+    all_inside = last["interior_paths"] == last["paths"]
+    start = "all start" if all_inside else "most start"
     longest = count(last["paths"], "path has", "paths have")
     sentences.append(
         f"At this number of points {longest} the largest size of all, {last['lepp_size']}, and "
-        f"{'starts' if last['paths'] == 1 else 'most start'} {where}."
+        f"{'starts' if last['paths'] == 1 else start} {where}."
     )
     return [" ".join(sentences)]
 

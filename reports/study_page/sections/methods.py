@@ -100,13 +100,6 @@ def _same_points(evidence: Evidence, distribution: str) -> list[str] | None:
         f"{listed(_beside(means, 'fixed4'))}, and the shares p of type C neighbours "
         f"{listed(_beside(shares, 'fixed4'))}. {premise(shares)}"
     ]
-    growth = evidence.rows(GROWTH, distribution=distribution)
-    if not growth.empty:
-        slopes = _beside(_by_method(growth, "slope"), "g2")
-        sentences.append(
-            f"With each doubling of the points the mean changes by {listed(slopes)}; "
-            f"{_differing_growth(growth)}."
-        )
     return sentences
 
 
@@ -145,17 +138,6 @@ def premise(shares: dict[str, float]) -> str:
         f"{verb} {listed(below)} triangulations {'is' if len(below) == 1 else 'are'} below the "
         f"{LEAST_P_TEXT} that Theorem 2 supposes."
     )
-
-
-def _differing_growth(growth: Rows) -> str:
-    same = (growth["low"] <= 0) & (growth["high"] >= 0)
-    if len(growth) == 1:
-        return f"the growth {'is not shown to differ' if same.iloc[0] else 'differs'}"
-    differing = [METHODS[name].word for name in growth["method_2"][~same]]
-    reference = METHODS[growth.first["method_1"]].word
-    if not differing:
-        return f"no growth is shown to differ from the {reference} one"
-    return f"the {listed(differing)} growth differs from the {reference} one"
 
 
 def _growth(evidence: Evidence) -> FigureBlock:
@@ -227,7 +209,9 @@ def _lines(
                 hovertemplate="%{x:,} points: %{y:.4f}<extra>" + view.method_title + "</extra>",
             )
         )
-    return style.Panel(traces, style.axis("Number of points"), style.axis(title), levels=levels)
+    return style.Panel(
+        traces, style.number_of_points(evidence.design.sizes), style.axis(title), levels=levels
+    )
 
 
 def _rates(evidence: Evidence) -> FigureBlock:

@@ -106,7 +106,6 @@ def _sizes(evidence: Evidence) -> FigureBlock:
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
         reading=f"Bars are {LEVEL} intervals: narrow where regions are many, wide where they are "
-        "few. "
-        "The vertical scale is logarithmic.",
+        "few. The vertical scale is logarithmic.",
         data=(TableBlock(REGION_SIZES, "sizes of the regions"),),
     )

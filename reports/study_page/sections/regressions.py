@@ -544,7 +544,7 @@ def _panel(evidence: Evidence, view: View, part: str, which: str) -> style.Panel
     )
     return style.Panel(
         traces,
-        style.powers("Number of points"),
+        style.number_of_points(evidence.design.sizes),
         style.axis("Mean LEPP size", range=[low - margin, high + margin]),
         title=f"The {part}{' mesh' if part == WHOLE else ''}",
     )

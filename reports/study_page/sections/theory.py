@@ -193,7 +193,7 @@ def _types(evidence: Evidence) -> FigureBlock:
             )
         return style.plot(
             *traces,
-            xaxis=style.axis("Number of points"),
+            xaxis=style.number_of_points(evidence.design.sizes),
             yaxis=style.percents("Share of longest-edge neighbours", rangemode="tozero"),
             levels=[style.Level(LEAST_P, f"p = {LEAST_P_TEXT}")],
         )
@@ -342,7 +342,10 @@ def _moment(evidence: Evidence, view: View, statistic: str) -> style.Panel:
         )
     ]
     return style.Panel(
-        traces, style.axis("Number of points"), style.axis(""), statistic.capitalize()
+        traces,
+        style.number_of_points(evidence.design.sizes),
+        style.axis(""),
+        statistic.capitalize(),
     )
 
 

@@ -3,7 +3,7 @@ import zlib
 from base64 import b64decode
 from pathlib import Path
 
-from reports.page import plotly
+from reports.page import plotly, style
 
 #: As the bundle is built: a wrapper, the registration of everything, and the end.
 TRACES = ",".join(f"t{k}$()" for k in range(40))
@@ -68,3 +68,9 @@ def test_modules_of_another_version_or_bundler_are_all_kept() -> None:
         assert plotly.only_used(other) == other
     without = bundle(helpers=HELPERS.replace("if(r)throw", "if(t)throw"))
     assert plotly.only_used(without) == without
+
+
+def test_the_axis_of_points_is_logarithmic_where_sizes_span_much() -> None:
+    assert style.number_of_points((10, 500)).get("type") is None
+    assert style.number_of_points((10, 501))["type"] == "log"
+    assert style.number_of_points(()).get("type") is None

@@ -6,7 +6,6 @@ import pytest
 from frames import design
 from page_text import PageText, drawn, page_text
 
-from reports.page.blocks import FigureBlock
 from reports.study_page.sections import distributions
 
 ASKED = design(
@@ -77,23 +76,9 @@ def test_the_largest_difference_is_named():
     ) in page.prose(PART)
 
 
-def test_all_distributions_are_in_one_figure():
-    page = shifted(0.02)
-    (figure,) = (b for b in page.blocks(PART) if isinstance(b, FigureBlock))
-    spec = figure.specs["delaunay/normal"]
-    assert [t["name"] for t in spec["data"][:3]] == ["Uniform", "Normal", "Bivariate normal"]
-    assert len(spec["data"]) == 6  # whole and interior
-    means = page.evidence.tables["distribution_means"].frame
-    rows = means.query("method == 'delaunay' and part == 'whole' and distribution == 'normal'")
-    assert list(spec["data"][1]["y"]) == rows["mean"].tolist()
-    assert list(spec["data"][1]["error_y"]["array"]) == rows["half"].tolist()
-    last = means.query("method == 'delaunay' and part == 'whole' and n_points == 4000")
-    values = last.set_index("distribution")["mean"]
-    assert values["normal"] > values["uniform"] == values["bivariate_normal"]
-    assert figure.alternatives["delaunay/uniform"] == (
-        f"At 4,000 points the mean LEPP sizes are {values['uniform']:.4f} (uniform), "
-        f"{values['bivariate_normal']:.4f} (bivariate normal) and {values['normal']:.4f} (normal)."
-    )
+def test_the_means_are_shown_elsewhere():
+    said = shifted(0.02).prose(PART)
+    assert said.endswith("[[figure-parts]] shows the means of all distributions.")
 
 
 def test_one_distribution_has_no_such_section():
@@ -105,5 +90,4 @@ def test_one_distribution_has_no_such_section():
 def test_without_means_nothing_is_said():
     none = page_text(drawn(ASKED, results=lambda f: f.iloc[:0], layers=lambda f: f.iloc[:0]))
     assert none.prose(PART) == ""
-    assert none.finding("figure-distribution-means") == ""
     assert distributions.section(none.evidence).id == "distributions"

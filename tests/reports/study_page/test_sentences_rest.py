@@ -69,12 +69,8 @@ def one_grows(results):
 
 def test_growth_of_methods():
     said = page_text(drawn(DESIGN, results=one_grows))
-    text = said.prose("same-points")
-    assert (
-        "With each doubling of the points the mean changes by 0.050 (plain insertion) and" in text
-    )
-    assert text.endswith("the growth differs.")
-    assert page("drawn").prose("same-points").endswith("the growth is not shown to differ.")
+    # A logarithmic slope that the means do not follow is not said.
+    assert "doubling" not in said.prose("same-points")
     assert said.finding("figure-methods").startswith(
         "From few points to many, plain insertion means go from 3.0"
     )

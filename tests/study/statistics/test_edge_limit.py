@@ -63,6 +63,10 @@ def test_they_must_be_the_same_triangulations():
     fewer = Groups(interior.n_points, (interior.values[0][1:], *interior.values[1:]))
     with pytest.raises(NotEnough, match="no interior"):
         edge_limit(THICKENING_EDGE, whole, fewer)
+    nothing = Groups(SIZES[:0], ())
+    for pair in ((nothing, nothing), (whole, nothing)):
+        with pytest.raises(NotEnough, match="no triangulation has an interior"):
+            edge_limit(THICKENING_EDGE, *pair)
     two = Groups(SIZES[:2], whole.values[:2])
     with pytest.raises(NotEnough, match="needs 3 sizes, not 2"):
         edge_limit(THICKENING_EDGE, two, two)
