@@ -148,20 +148,6 @@ def by_mean(v: View, s: Sheet, k: int) -> str:
     return f"At {s(max(v.run.sizes))} points the mean LEPP sizes are {listed(words)}."
 
 
-@recount("figure-distributions", "At ")
-def by_distribution(v: View, s: Sheet, k: int) -> str:
-    means = _last(v.run, v.method)
-    words = [f"{s(mean)} ({WORDS[d]})" for d, mean in means.items()]
-    start = f"At {s(max(v.run.sizes))} points the mean LEPP size"
-    if len(words) == 1:
-        return f"{start} is {words[0]}."
-    gap = max(means.values()) - min(means.values())
-    return (
-        f"{start}s of {v.method_word} triangulations are {listed(words)}: they lie within {s(gap)} "
-        "of one another."
-    )
-
-
 def _each(v: View) -> list[View]:
     return [View(v.run, method, v.distribution) for method in v.run.methods]
 

@@ -117,8 +117,12 @@ def refuted_below(run: Run) -> float:
 
 @cache
 def means(run: Run, method: str, distribution: str, part: str) -> Means:
-    """Means of one view."""
-    groups = judged_groups(run, method, distribution, part)
+    """Means of one view, at the sizes that are judged."""
+    return means_of(judged_groups(run, method, distribution, part))
+
+
+def means_of(groups: Groups) -> Means:
+    """Means of some triangulations."""
     counts = np.array([len(g) for g in groups.values()])
     return Means(
         np.array(list(groups)) / 1000,
@@ -202,7 +206,9 @@ def fitted_sizes(seen: Means) -> np.ndarray:
     """Which sizes are fitted before the others are predicted."""
     kept = seen.x * 1000 <= _PUBLISHED_UP_TO
     if kept.all() or kept.sum() < 4:
-        kept = np.arange(len(kept)) < len(kept) - int(np.ceil(len(kept) / 4))
+        # A quarter is left out, but four are fitted, and one at least is predicted.
+        fitted = min(max(len(kept) - int(np.ceil(len(kept) / 4)), 4), len(kept) - 1)
+        kept = np.arange(len(kept)) < fitted
     return kept
 
 
@@ -546,16 +552,10 @@ def _larger_half(groups: Groups) -> Groups:
 
 
 def edge_limit(key: tuple) -> tuple[float, float, float, float] | None:
-    """Limit of the thickening edge, mean of level larger interiors, t and p of their difference."""
+    """Limit of the thickening edge, mean of larger interiors, t and p of their difference."""
     whole = key[0].groups(*key[1:])
     inside = free_of_edge(*key) or _larger_half(key[0].groups(*key[1:], INTERIOR))
-    counts = np.array([len(g) for g in inside.values()])
-    seen = Means(
-        np.array(list(inside)) / 1000,
-        np.array([g.mean() for g in inside.values()]),
-        _smooth(inside) / counts,
-        int((counts - 1).sum()),
-    )
+    seen = means_of(inside)
     of_whole = means(*key, WHOLE)
 
     def weights(model: str, at: Means) -> np.ndarray:
