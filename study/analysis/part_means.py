@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 import pandas as pd
+from scipy import special
 
 from lepp import INTERIOR_LAYER
 from study.analysis.building import Population, Study, rows_by_population, rows_of
@@ -12,9 +13,13 @@ from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Declara
 from study.statistics.groups import NotEnough
 from study.statistics.homogeneity import homogeneity
 from study.statistics.intervals import mean_interval, ratio_of_sums
+from study.statistics.multiple_testing import holm
 from study.statistics.size_means import SizeMeans
 from study.statistics.thresholds import LEVEL, SIGNIFICANCE
-from study.statistics.verdicts import rejected
+from study.statistics.verdicts import NOT_SHOWN, rejected
+
+#: Where the mean of a layer is, against that of the interior.
+ABOVE, BELOW = "above", "below"
 
 _SHARE = Column("share", "Share of the triangles", "", "percent2")
 _LAYER = Column("layer", "Layer", "", "int")
@@ -52,12 +57,14 @@ LAYER_MEANS = Declaration(
         Column("mean_lepp", "Mean LEPP", "triangles", "fixed4"),
         Column("standard_error", "Standard error", "triangles", "g2"),
         *_INTERVAL,
+        Column("against_interior", "Against the interior"),
         Column("max_lepp", "Largest LEPP", "triangles", "int"),
     ),
     note="The layer of a triangle is the number of steps across edges from it to a triangle at the "
     f"hull; {INTERIOR_LAYER} stands for that and more. The mean is over all triangles of a layer "
     "in all triangulations of a size, the least, the middle and the largest of them; its standard "
-    "error is that of a ratio of sums over triangulations.",
+    "error is that of a ratio of sums over triangulations. A layer is above or below the interior "
+    f"where a t test rejects at {SIGNIFICANCE}, by Holm's correction over the layers of the size.",
 )
 
 LONGEST_PATHS = Declaration(
@@ -137,19 +144,41 @@ def layer_means(one: Population) -> Iterator[Row]:
     for n in sizes[sorted({0, len(sizes) // 2, len(sizes) - 1} & set(range(len(sizes))))]:
         of_size = rows[rows["n_points"] == n]
         total = of_size["count"].sum()
+        layers: list[Row] = []
         for layer, of_layer in of_size.groupby("layer", sort=True):
             counts = _by_replicate(of_layer)
             mean, error, low, high = ratio_of_sums(counts["steps"], counts["count"])
-            yield {
-                "n_points": int(n),
-                "layer": int(layer),
-                "share": of_layer["count"].sum() / total,
-                "mean_lepp": mean,
-                "standard_error": error,
-                "low": low,
-                "high": high,
-                "max_lepp": int(of_layer["lepp_size"].max()),
-            }
+            layers.append(
+                {
+                    "n_points": int(n),
+                    "layer": int(layer),
+                    "share": of_layer["count"].sum() / total,
+                    "mean_lepp": mean,
+                    "standard_error": error,
+                    "low": low,
+                    "high": high,
+                    "max_lepp": int(of_layer["lepp_size"].max()),
+                }
+            )
+        df = of_size["replicate"].nunique() - 1
+        for row, words in zip(layers, _against_interior(pd.DataFrame(layers), df), strict=True):
+            yield row | {"against_interior": words}
+
+
+def _against_interior(layers: pd.DataFrame, df: int) -> list[str | None]:
+    """Say of each layer whether its mean is above or below that of the interior."""
+    inside = layers["layer"] == INTERIOR_LAYER
+    if not inside.any() or df < 1:
+        return [None] * len(layers)
+    interior = layers[inside].iloc[0]
+    edge = layers[~inside]
+    difference = edge["mean_lepp"].to_numpy() - interior["mean_lepp"]
+    error = np.hypot(edge["standard_error"].to_numpy(), interior["standard_error"])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        p = 2 * special.stdtr(df, -np.abs(difference / error))
+    shown = holm(np.where(np.isnan(p), 1.0, p)) < SIGNIFICANCE
+    words = np.where(shown, np.where(difference > 0, ABOVE, BELOW), NOT_SHOWN)
+    return [*words.tolist(), None]
 
 
 def _by_replicate(rows: pd.DataFrame) -> dict[str, np.ndarray]:

@@ -12,6 +12,8 @@ from reports.page.style import Spec
 from reports.page.views import View, distribution_name, distribution_word
 from reports.text.words import LEVEL
 from study.analysis.part_means import (
+    ABOVE,
+    BELOW,
     COMMON_MEANS,
     LAYER_MEANS,
     LONGEST_PATHS,
@@ -19,7 +21,7 @@ from study.analysis.part_means import (
 )
 from study.analysis.parts import INTERIOR, WHOLE
 from study.statistics.verdicts import REJECTED
-from study.text.numbers import count, p_is, show
+from study.text.numbers import count, listed, p_is, show
 
 #: Paths of a size that so many at least have are called long.
 _LONG = 100
@@ -225,17 +227,39 @@ def _layers(evidence: Evidence, view: View) -> list[str] | None:
     edge = layers[layers["layer"] < INTERIOR_LAYER]
     if edge.empty:
         return None
-    high, low = edge.loc[edge["mean_lepp"].idxmax()], edge.loc[edge["mean_lepp"].idxmin()]
     sentence = (
         f"The layer of a triangle is its number of steps from the hull. At "
-        f"{high['n_points']:,} points the edge has {show(edge['share'].sum(), 'percent2')} of the "
-        f"triangles. Its mean is highest in layer {high['layer']}, at "
-        f"{_with_interval(high)}, and lowest in layer {low['layer']}, at {_with_interval(low)}"
+        f"{edge['n_points'].iloc[0]:,} points the edge has {show(edge['share'].sum(), 'percent2')} "
+        "of the triangles."
     )
     interior = layers[layers["layer"] == INTERIOR_LAYER]
     if interior.empty:
-        return [f"{sentence}."]
-    return [f"{sentence}; in the interior it is {show(interior['mean_lepp'].iloc[0], 'fixed4')}."]
+        return [sentence]
+    inside = show(interior["mean_lepp"].iloc[0], "fixed4")
+    below, above = (edge[edge["against_interior"] == side] for side in (BELOW, ABOVE))
+    words = []
+    if not below.empty:
+        words.append(f"below it in {_layers_named(below)}")
+    if not above.empty:
+        top = above.loc[above["mean_lepp"].idxmax()]
+        words.append(
+            f"above it in {_layers_named(above)}, most in layer {top['layer']}, at "
+            f"{_with_interval(top)}"
+        )
+    where = f"is {' and '.join(words)}" if words else "is not shown to differ from it in any layer"
+    return [
+        f"{sentence} The mean of the interior is {inside}; by tests of all layers, with Holm's "
+        f"correction, that of the edge {where}."
+    ]
+
+
+def _layers_named(rows: pd.DataFrame) -> str:
+    """Name layers, those in a row by the first and the last."""
+    layers = rows["layer"].tolist()
+    starts = [k for k in layers if k - 1 not in layers]
+    ends = [k for k in layers if k + 1 not in layers]
+    named = [f"{a} to {b}" if b > a else str(a) for a, b in zip(starts, ends, strict=True)]
+    return f"layer{'s' if len(layers) > 1 else ''} {listed(named)}"
 
 
 def _with_interval(row: pd.Series) -> str:
@@ -285,13 +309,15 @@ def _figure_layers(evidence: Evidence) -> FigureBlock:
         words = []
         for distribution in evidence.design.distributions:
             layers = _at_largest(evidence, View(view.method, distribution))
-            if not layers.empty:
-                top = layers.loc[layers["mean_lepp"].idxmax()]
-                words.append(
-                    f"{distribution_word(distribution)} points in layer {top['layer']} "
-                    f"({show(top['mean_lepp'], 'fixed2')})"
-                )
-        return f"The mean is highest for {', '.join(words)}." if words else None
+            if layers.empty:
+                continue
+            above = layers[layers["against_interior"] == ABOVE]
+            layer = "none"
+            if not above.empty:
+                top = above.loc[above["mean_lepp"].idxmax()]
+                layer = f"{top['layer']} ({show(top['mean_lepp'], 'fixed2')})"
+            words.append(f"{distribution_word(distribution)} points, {layer}")
+        return f"The layer furthest above the interior: {'; '.join(words)}." if words else None
 
     return FigureBlock(
         id="figure-layers",

@@ -398,18 +398,15 @@ def _edge_check(evidence: Evidence, view: View) -> str | None:
     row = evidence.one(EDGE_LIMITS, view)
     if row is None:
         return None
+    if row["level"] != YES:  # then the mean of the interior is no limit
+        return None
     agrees = "agree" if row["agrees"] == YES else "do not agree"
-    level = (
-        ""
-        if row["level"] == YES
-        else " But the interior is not level, and its mean no limit: they need not agree."
-    )
     return (
         "With an edge that thickens as the logarithm of the number of points, the whole mesh has "
         f"the limit {show(row['limit'], 'fixed4')}; the interior of the larger meshes has the mean "
         f"{show(row['interior'], 'fixed4')}. The two {agrees}: they differ by "
         f"{show(abs(row['t']), 'fixed1')} standard errors "
-        f"(p\u00a0=\u00a0{show(row['p'], 'p')}).{level}"
+        f"(p\u00a0=\u00a0{show(row['p'], 'p')})."
     )
 
 

@@ -1,12 +1,18 @@
 """What the report says of the edge and the interior, on runs made one way and the other."""
 
+from dataclasses import replace
+
+import pandas as pd
 import pytest
 from grown_runs import grown
 from made_runs import page
 
 from lepp import INTERIOR_LAYER
+from reports.page.views import View
+from reports.study_page.sections import edge
 from study.analysis.part_means import COMMON_MEANS, LAYER_MEANS, PART_MEANS
 
+VIEW_OF = View("incremental", "uniform")
 VIEW = {"method": "incremental", "distribution": "uniform"}
 
 
@@ -56,8 +62,14 @@ def test_the_layers_of_the_highest_mean_and_of_the_longest_paths(edge):
     mean = (paths * size + 4 * 2005.5) / (paths + 2005.5)
     assert rows.loc[layer, "mean_lepp"] == pytest.approx(mean)
     said = text.prose("layers")
-    assert f"Its mean is highest in layer {layer}, at {mean:.2f} (95 % from " in said
-    assert "and lowest in layer 0, at 1.00; in the interior it is 3.47" in said
+    assert "The mean of the interior is 3.47" in said
+    tested = rows["against_interior"].dropna()
+    assert tested[tested == "above"].index.tolist() == [layer]
+    assert "below" not in set(tested)  # a layer that never varies has no error to test by
+    assert (
+        "by tests of all layers, with Holm's correction, that of the edge is above it in layer "
+        f"{layer}, most in layer {layer}, at {mean:.2f}"
+    ) in said
     longest = text.prose("longest")
     assert (
         f"At this number of points {12 * paths} paths have the largest size of all, {size}, and "
@@ -82,8 +94,9 @@ def test_figures_have_all_distributions():
     text = grown("saturating", "level")
     said = text.finding("figure-parts")
     assert said.startswith("At 2,000,000 points the whole means of the 2 distributions lie from ")
-    assert "uniform points in layer 5" in text.finding("figure-layers")
-    assert "exponential points in layer 5" in text.finding("figure-layers")
+    assert "the interior: uniform points, 5 (4.24); exponential points, 5 (4" in text.finding(
+        "figure-layers"
+    )
     assert "100.0 % for uniform points (of 20 and more)" in text.finding("figure-longest")
     for figure in ("figure-parts", "figure-layers", "figure-longest"):
         (block,) = (
@@ -94,6 +107,33 @@ def test_figures_have_all_distributions():
         )
         names = {trace["name"] for trace in block.specs["incremental/uniform"]["data"]}
         assert names == {"Uniform", "Exponential"}
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence", "figure"),
+    [
+        (["below", "below", "above"], "is below it in layer 0 and above it in layer 2, most"
+            " in layer 2, at ", "uniform points, 2 ("),
+        (["below", "not shown", "below"], "is below it in layers 0 and 2.", "uniform points, none"),
+        (["not shown"] * 3, "is not shown to differ from it in any layer.", "uniform points, none"),
+    ],
+)  # fmt: skip
+def test_layers_are_named_by_what_tests_of_them_show(words, sentence, figure):
+    evidence = grown("saturating", "level", edge=(2, 20, 30)).evidence
+    table = evidence.tables["layer_means"]
+    frame = table.frame.copy()
+    for layer in range(INTERIOR_LAYER):
+        told = words[layer] if layer < len(words) else "not shown"
+        frame.loc[frame["layer"] == layer, "against_interior"] = told
+    changed = replace(evidence, tables=evidence.tables.adding(replace(table, frame=frame)))
+    (said,) = edge._layers(changed, VIEW_OF)
+    assert sentence in said
+    assert figure in edge._figure_layers(changed).alternatives[VIEW_OF.key]
+
+
+def test_layers_in_a_row_are_named_by_their_ends():
+    named = edge._layers_named(pd.DataFrame({"layer": [0, 1, 2, 5, 7, 8]}))
+    assert named == "layers 0 to 2, 5 and 7 to 8"
 
 
 def test_small_meshes_still_have_their_edge():

@@ -194,7 +194,7 @@ def test_the_edge_limit_is_held_against_the_interior(interior, agree):
 
 def test_a_mean_that_is_not_level_is_no_limit():
     said = grown("saturating", "logarithmic").prose("limit")
-    assert "But the interior is not level, and its mean no limit: they need not agree." in said
+    assert "the interior of the larger meshes" not in said
 
 
 # Beyond the data

@@ -207,7 +207,7 @@ def test_randomness_of_the_points(name):
         f"{100 * below / len(p):.2f} % (95 % interval {100 * low:.2f} % to {100 * high:.2f} %), "
         + ("which is what chance alone" if by_chance else "which chance alone does not explain")
     )
-    assert f"About {len(p) * 0.05:.0f} had to, even with perfect points." in said
+    assert f"About {len(p) * 0.05:.0f} would, even with perfect points." in said
     none = "none rejects" if rejected == 0 else f"{rejected} reject{'' if rejected > 1 else 's'}"
     assert said.endswith(f"After Holm's correction {none}.")
 

@@ -4,6 +4,8 @@ import numpy as np
 import pandas as pd
 import pytest
 from frames import design, frames
+from scipy import stats
+from statsmodels.stats.multitest import multipletests
 
 from lepp import INTERIOR_LAYER
 from study.analysis import analyse
@@ -44,6 +46,37 @@ def test_means_of_the_parts(run):
         (np.mean(means) - half, np.mean(means) + half)
     )
     assert row["share"] == pytest.approx(inside["count"].sum() / counts["count"].sum())
+
+
+def test_layers_are_tested_against_the_interior(run):
+    _, _, tables = run
+    table = of_uniform(tables["layer_means"].frame)
+    seen = set()
+    for _, rows in table.groupby("n_points"):
+        inside, edge = rows.iloc[-1], rows.iloc[:-1]
+        t = (edge["mean_lepp"] - inside["mean_lepp"]) / np.hypot(
+            edge["standard_error"], inside["standard_error"]
+        )
+        rejected, *_ = multipletests(2 * stats.t.sf(t.abs(), 5), method="holm")
+        sides = np.where(t > 0, "above", "below")
+        expected = np.where(rejected, sides, "not shown").tolist()
+        assert edge["against_interior"].tolist() == expected
+        assert pd.isna(inside["against_interior"])
+        seen |= set(expected)
+    assert "not shown" in seen
+
+
+def test_a_layer_far_from_the_interior_is_above_or_below_it(run):
+    asked, (results, histograms, regions, layers, sets), _ = run
+    moved = layers.copy()
+    moved.loc[moved["layer"] == 0, "lepp_size"] += 3
+    tables = analyse(results, histograms, regions, moved, sets, asked)
+    rows = of_uniform(tables["layer_means"].frame, n_points=4000).set_index("layer")
+    assert rows.loc[0, "against_interior"] == "above"
+    moved.loc[moved["layer"] == INTERIOR_LAYER, "lepp_size"] += 9
+    tables = analyse(results, histograms, regions, moved, sets, asked)
+    rows = of_uniform(tables["layer_means"].frame, n_points=4000).set_index("layer")
+    assert rows["against_interior"].tolist()[:2] == ["below", "below"]
 
 
 def test_means_of_the_layers(run):
