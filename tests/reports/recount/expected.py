@@ -15,6 +15,9 @@ _NUMBER = (
     rf"(?:< {_TEN}|[−-]?∞|{_DIGITS} × {_TEN}|{_TEN}|{_DIGITS}(?: (?:billion|million))?|none|–)"
 )
 _MARK = re.compile("⟦(\\d+)⟧")
+_EITHER = re.compile("⟪(.*?)⟫")
+#: Powers of ten below this are only said to be so.
+_LEAST_POWER = -307
 #: What a double's own rounding may add to half a unit of the last digit.
 _ROUNDING = 1e-9
 
@@ -99,6 +102,10 @@ class Sheet:
         self.numbers.append(_Number(float(log10_p), slack, logarithm=True))
         return f"⟦{len(self.numbers) - 1}⟧"
 
+    def p_is(self, log10_p: float, slack: float = 0.0) -> str:
+        """What a p-value is: equal to a mark, or below the least that is shown."""
+        return f"p {'' if log10_p < _LEAST_POWER else '= '}{self.p(log10_p, slack)}"
+
     def differences(self, expected: str, text: str) -> list[str] | None:
         """Hold a sentence of the page against ours.
 
@@ -109,7 +116,7 @@ class Sheet:
         """
         pieces = _MARK.split(expected)
         pattern = "".join(
-            f"({_NUMBER})" if k % 2 else re.escape(piece) for k, piece in enumerate(pieces)
+            f"({_NUMBER})" if k % 2 else _words(piece) for k, piece in enumerate(pieces)
         )
         match = re.fullmatch(pattern, text)
         if match is None:
@@ -124,6 +131,19 @@ class Sheet:
     def filled(self, expected: str) -> str:
         """Our sentence with our numbers in it."""
         return _MARK.sub(lambda mark: self.numbers[int(mark[1])].described, expected)
+
+
+def either(words: list[str]) -> str:
+    """Mark for a word that may be any of these."""
+    return f"⟪{'|'.join(words)}⟫"
+
+
+def _words(piece: str) -> str:
+    """Pattern of the words between two numbers."""
+    return "".join(
+        f"(?:{'|'.join(map(re.escape, words.split('|')))})" if k % 2 else re.escape(words)
+        for k, words in enumerate(_EITHER.split(piece))
+    )
 
 
 def listed(words: list[str], last: str = "and") -> str:

@@ -117,16 +117,22 @@ def analogous(v: View, s: Sheet, k: int) -> str:
         for pair, word in pairs(v.run, v.method, WHOLE)
         if v.distribution in (pair.first, pair.second)
     ]
-    start = "Results are analogous for all distributions: their means differ by less than 1 %"
+    start = "Results and conclusions are analogous for all the distributions"
     if not of:
         return f"{start} | not tested | the run has too few triangulations"
     far = max((pair for pair, _ in of), key=lambda pair: abs(pair.relative))
     other = far.second if far.first == v.distribution else far.first
-    alike = sum(word == "alike" for _, word in of)
+    each = []
+    for key, words in _WORDS.items():
+        number = sum(word == key for _, word in of)
+        if number:
+            words = words.removesuffix(" and leave room for less than 1 %")
+            each.append(f"{s(number)} {plural(number, 'shows', 'show')} {words}")
     return (
-        f"{start} | {equivalent([pair for pair, _ in of])} | {s(len(of))} comparisons with the "
-        f"others: {s(alike)} alike; the largest difference is "
-        f"{s.percent(abs(far.relative))}, from the {WORDS[other]} distribution at {s(far.n)} points"
+        f"{start} | {equivalent([pair for pair, _ in of])} | our criterion, means that "
+        f"differ by less than 1 %: of {s(len(of))} comparisons with the others, "
+        f"{listed(each)}; the largest difference is {s.percent(abs(far.relative))}, "
+        f"from the {WORDS[other]} distribution at {s(far.n)} points"
     )
 
 
@@ -140,20 +146,6 @@ def by_mean(v: View, s: Sheet, k: int) -> str:
     means = _last(v.run, v.method)
     words = [f"{s(means[d])} ({WORDS[d]})" for d in sorted(means, key=means.__getitem__)]
     return f"At {s(max(v.run.sizes))} points the mean LEPP sizes are {listed(words)}."
-
-
-@recount("figure-distributions", "At ")
-def by_distribution(v: View, s: Sheet, k: int) -> str:
-    means = _last(v.run, v.method)
-    words = [f"{s(mean)} ({WORDS[d]})" for d, mean in means.items()]
-    start = f"At {s(max(v.run.sizes))} points the mean LEPP size"
-    if len(words) == 1:
-        return f"{start} is {words[0]}."
-    gap = max(means.values()) - min(means.values())
-    return (
-        f"{start}s of {v.method_word} triangulations are {listed(words)}: they lie within {s(gap)} "
-        "of one another."
-    )
 
 
 def _each(v: View) -> list[View]:

@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 import pandas as pd
 from expected import Sheet, plural
-from of_growth import means
+from of_growth import means_of
 from recounts import View, recount
 from run_data import INTERIOR, INTERIOR_LAYER, WHOLE, WORDS, Run, log10_f_tail, t95
 
@@ -59,7 +59,7 @@ def changes(v: View, s: Sheet, k: int) -> str:
 
 @recount("parts", "At .* points the interiors")
 def one_mean(v: View, s: Sheet, k: int) -> str:
-    seen = {d: means(v.run, v.method, d, INTERIOR) for d in v.run.distributions}
+    seen = {d: means_of(v.run.groups(v.method, d, INTERIOR)) for d in v.run.distributions}
     x = max(one.x.max() for one in seen.values())
     at = {d: int(np.flatnonzero(one.x == x)[0]) for d, one in seen.items() if x in one.x}
     y = {d: float(seen[d].y[i]) for d, i in at.items()}
@@ -75,10 +75,10 @@ def one_mean(v: View, s: Sheet, k: int) -> str:
         f"{s(y[high] - y[low])} apart."
     )
     if p < np.log10(0.05):
-        return f"{start} do not have one mean (p = {s.p(p, 1e-5)}): {which}"
+        return f"{start} do not have one mean ({s.p_is(p, 1e-5)}): {which}"
     half = t95(df_error) / np.sqrt(w.sum())
     return (
-        f"{start} may have one mean (p = {s.p(p, 1e-5)}), {s(mean)} (95 % from {s(mean - half)} to "
+        f"{start} may have one mean ({s.p_is(p, 1e-5)}), {s(mean)} (95 % from {s(mean - half)} to "
         f"{s(mean + half)}): {which}"
     )
 
@@ -170,9 +170,11 @@ def very_longest(v: View, s: Sheet, k: int) -> str:
     row = counts.loc[size]
     total, layer = int(row.sum()), int(row.idxmax())
     where = "in the interior" if layer == INTERIOR_LAYER else f"in layer {s(layer)}"
+    inside = int(row[INTERIOR_LAYER]) if INTERIOR_LAYER in row else 0
+    start = "starts" if total == 1 else "all start" if inside == total else "most start"
     return (
         f"At this number of points {s(total)} {plural(total, 'path has', 'paths have')} the "
-        f"largest size of all, {s(size)}, and {'starts' if total == 1 else 'most start'} {where}."
+        f"largest size of all, {s(size)}, and {start} {where}."
     )
 
 

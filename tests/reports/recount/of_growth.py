@@ -11,9 +11,9 @@ from functools import cache
 
 import numpy as np
 import statsmodels.api as sm
-from expected import Sheet, listed, plural
+from expected import Sheet, either, listed, plural
 from recounts import View, recount
-from run_data import INTERIOR, WHOLE, Groups, Run, log10_f_tail, t95
+from run_data import INTERIOR, INTERIOR_LAYER, WHOLE, Groups, Run, log10_f_tail, t95
 from scipy import optimize, special, stats
 
 #: Model, number of coefficients, whether it has a limit.
@@ -55,6 +55,9 @@ def _smooth(groups: Groups) -> np.ndarray:
 
     def fit(degree: int) -> tuple[float, np.ndarray]:
         basis = np.vander(log_n, degree + 1, increasing=True)
+        if repeated.sum() == degree + 1:  # it goes through all of them
+            through = np.linalg.solve(basis[repeated], np.log(variances[repeated]))
+            return 0.0, np.exp(basis @ through)
         family = sm.families.Gamma(sm.families.links.Log())
         model = sm.GLM(
             variances[repeated],
@@ -87,10 +90,42 @@ class Means:
         return Means(self.x[kept], self.y[kept], self.v[kept], self.df)
 
 
+def free_of_edge(run: Run, method: str, distribution: str) -> Groups | None:
+    """Interiors of the meshes that are nine tenths interior; None for fewer than five sizes."""
+    frame = run.counts("layers", method, distribution)
+    every = frame.groupby("n_points")["count"].sum()
+    inside = frame[frame["layer"] == INTERIOR_LAYER].groupby("n_points")["count"].sum()
+    groups = run.groups(method, distribution, INTERIOR)
+    large = {n: g for n, g in groups.items() if inside[n] >= 0.9 * every[n]}
+    return large if len(large) >= 5 else None
+
+
+def judged_groups(run: Run, method: str, distribution: str, part: str) -> Groups:
+    """Means of triangulations at the sizes that are judged."""
+    large = free_of_edge(run, method, distribution) if part == INTERIOR else None
+    return large or run.groups(method, distribution, part)
+
+
+@cache
+def refuted_below(run: Run) -> float:
+    """0.01 shared among all trends: those with a size of which the variance can be told."""
+    trends = sum(
+        any(len(g) > 1 and np.ptp(g) > 0 for g in judged_groups(run, m, d, part).values())
+        for m in run.methods
+        for d in run.distributions
+        for part in (WHOLE, INTERIOR)
+    )
+    return 0.01 / max(trends, 1)
+
+
 @cache
 def means(run: Run, method: str, distribution: str, part: str) -> Means:
-    """Means of one view."""
-    groups = run.groups(method, distribution, part)
+    """Means of one view, at the sizes that are judged."""
+    return means_of(judged_groups(run, method, distribution, part))
+
+
+def means_of(groups: Groups) -> Means:
+    """Means of some triangulations."""
     counts = np.array([len(g) for g in groups.values()])
     return Means(
         np.array(list(groups)) / 1000,
@@ -174,7 +209,9 @@ def fitted_sizes(seen: Means) -> np.ndarray:
     """Which sizes are fitted before the others are predicted."""
     kept = seen.x * 1000 <= _PUBLISHED_UP_TO
     if kept.all() or kept.sum() < 4:
-        kept = np.arange(len(kept)) < len(kept) - int(np.ceil(len(kept) / 4))
+        # A quarter is left out, but four are fitted, and one at least is predicted.
+        fitted = min(max(len(kept) - int(np.ceil(len(kept) / 4)), 4), len(kept) - 1)
+        kept = np.arange(len(kept)) < fitted
     return kept
 
 
@@ -197,16 +234,25 @@ class Scored:
     prediction_p: float
     aic: float
 
+    refuted_below: float
+    struck_out: bool
+
     @property
     def refuted(self) -> bool:
-        return min(self.fit_p, self.prediction_p) < 0.01
+        return min(self.fit_p, self.prediction_p) < self.refuted_below
+
+    @property
+    def out(self) -> bool:
+        return self.refuted or self.struck_out
 
 
 @cache
 def scores(run: Run, method: str, distribution: str, part: str) -> dict[str, Scored]:
     """Score every model that the sizes suffice for."""
-    seen = means(run, method, distribution, part)
+    key = (run, method, distribution)
+    seen = means(*key, part)
     kept = fitted_sizes(seen)
+    level = level_mean(key) if part == WHOLE else None
     made = {}
     for model, (terms, _) in MODELS.items():
         if kept.sum() < terms + 1 or kept.all() or (model == "logistic" and seen.y.max() >= 4):
@@ -218,14 +264,43 @@ def scores(run: Run, method: str, distribution: str, part: str) -> dict[str, Sco
             float(stats.f.sf(fit / n, n, seen.df)),
             float(stats.f.sf(prediction / unseen, unseen, seen.df)),
             fit + 2 * terms,
+            refuted_below(run),
+            level is not None and _has_another_limit(model, key, level),
         )
     return made
+
+
+def _has_another_limit(model: str, key: tuple, level: "Interval") -> bool:
+    """Whether the limit that a model has for the whole mesh is not near that mean."""
+    if not MODELS[model][1] or (model == "saturating" and _profile(key, WHOLE)[0] >= 0):
+        return False
+    _, low, high = limit_of(model, key, WHOLE)
+    return low > level[2] or level[1] > high
+
+
+def limit_of(model: str, key: tuple, part: str) -> "Interval":
+    """Limit of a model that has one."""
+    if model == "saturating":
+        return power_value(key, part, np.inf)
+    return _along(model, means(*key, part), np.eye(MODELS[model][0])[0])
+
+
+def level_mean(key: tuple) -> "Interval | None":
+    """Mean of an interior for which a constant survives, as far as a limit may be from it."""
+    if not any(len(g) > 1 and np.ptp(g) > 0 for g in judged_groups(*key, INTERIOR).values()):
+        return None
+    if len(means(*key, INTERIOR).x) < 5 or "constant" not in survivors(*key, INTERIOR):
+        return None
+    value, low, high = limit_of("constant", key, INTERIOR)
+    _, less, more = per_decade(key, INTERIOR)
+    unseen = max(-less, more)
+    return value, low - unseen, high + unseen
 
 
 @cache
 def survivors(run: Run, method: str, distribution: str, part: str) -> list[str]:
     """Models that are neither refuted nor far behind, by AIC."""
-    left = {k: s for k, s in scores(run, method, distribution, part).items() if not s.refuted}
+    left = {k: s for k, s in scores(run, method, distribution, part).items() if not s.out}
     lowest = min((s.aic for s in left.values()), default=0.0)
     names = sorted(left, key=lambda name: left[name].aic)
     return [name for name in names if left[name].aic - lowest <= 10]
@@ -312,7 +387,7 @@ def per_decade(key: tuple, part: str) -> Interval:
 def verdict(run: Run, method: str, distribution: str, part: str) -> tuple[str, str] | None:
     """Whether there is a limit, and why; None for too few sizes."""
     key = (run, method, distribution)
-    if not run.groups(*key[1:], part) or len(means(*key, part).x) < 6:
+    if not run.groups(*key[1:], part) or len(means(*key, part).x) < 5:
         return None
     left = survivors(*key, part)
     _, low, high = per_decade(key, part)
@@ -334,16 +409,14 @@ def verdict(run: Run, method: str, distribution: str, part: str) -> tuple[str, s
 
 
 def _limit(key: tuple, part: str, reason: str) -> Interval:
-    seen = means(*key, part)
     if reason == "the mean is level":
-        return _along("constant", seen, np.array([1.0]))
-    ends = []
-    for name in survivors(*key, part):
-        if name == "saturating":
-            if _profile(key, part)[0] < 0:
-                ends.append(power_value(key, part, np.inf))
-        elif name in ("edge", "thickening edge"):
-            ends.append(_along(name, seen, np.eye(MODELS[name][0])[0]))
+        return limit_of("constant", key, part)
+    ends = [
+        limit_of(name, key, part)
+        for name in survivors(*key, part)
+        if name in ("edge", "thickening edge", "saturating")
+        and (name != "saturating" or _profile(key, part)[0] < 0)
+    ]
     return ends[0][0], min(e[1] for e in ends), max(e[2] for e in ends)
 
 
@@ -351,39 +424,90 @@ def _models(names: list[str]) -> str:
     return f"{listed(names)} {plural(len(names), 'model survives', 'models survive')}"
 
 
-def verdict_sentence(key: tuple, part: str, it: str, s: Sheet) -> str:
-    """The verdict on a limit, in words."""
-    judged = verdict(*key, part)
-    assert judged is not None
-    reason = judged[1]
-    opening = it[0].upper() + it[1:]
-    if judged[0] == "yes":
-        value, low, high = _limit(key, part, reason)
-        if reason == "the mean is level":
-            return (
-                f"{opening} is level: it changes by no more than 0.001 with each tenfold number "
-                f"of points, and is {s(value)} (95 % from {s(low)} to {s(high)})."
-            )
+@dataclass(frozen=True)
+class OneLimit:
+    """The verdict of whole and interior together; the part that it is of, and its limit."""
+
+    word: str
+    reason: str
+    part: str
+    limit: Interval | None = None
+
+
+@cache
+def one_limit(run: Run, method: str, distribution: str) -> OneLimit | None:
+    """Whether the whole mesh and its interior have their one limit; None for too few sizes."""
+    key = (run, method, distribution)
+    each = {part: verdict(*key, part) for part in (WHOLE, INTERIOR)}
+    judged = {part: found for part, found in each.items() if found is not None}
+    if not judged:
+        return None
+    first = next(iter(judged))
+    yes = {p: _limit(key, p, why) for p, (word, why) in judged.items() if word == "yes"}
+    no = [part for part, (word, _) in judged.items() if word == "no"]
+    lows, highs = [one[1] for one in yes.values()], [one[2] for one in yes.values()]
+    if yes and (no or max(lows) > min(highs)):
+        reason = "the whole mesh and its interior contradict each other"
+        return OneLimit("undecided", reason, first)
+    if yes:
+        level = INTERIOR in yes and judged[INTERIOR][1] == "the mean is level"
+        part = INTERIOR if level else next(iter(yes))
+        return OneLimit("yes", judged[part][1], part, yes[part])
+    if no:
+        return OneLimit("no", judged[no[0]][1], no[0])
+    return OneLimit("undecided", judged[first][1], first)
+
+
+_MEAN_OF = {WHOLE: "the mean of the whole mesh", INTERIOR: "the mean of the interior"}
+
+
+def _with_a_limit(found: OneLimit, key: tuple, it: str, s: Sheet) -> str:
+    if found.reason == "the mean is level":
+        value, low, high = found.limit or (np.nan,) * 3
+        start = 1000 * means(*key, found.part).x[0]
         return (
-            f"{opening} has a limit: only models with one survive, and put it between "
-            f"{s(low, 2 * NEAR)} and {s(high, 2 * NEAR)} (95 %)."
+            f"{it} has a limit: {_MEAN_OF[found.part]} is level, for it changes by no more than "
+            f"0.001 with each tenfold number of points from {s(start)} on; the limit is "
+            f"{s(value)} (95 % from {s(low)} to {s(high)})."
         )
-    if judged[0] == "no":
-        grows = "grows" if per_decade(key, part)[0] > 0 else "falls"
+    scored, left = scores(*key, found.part), survivors(*key, found.part)
+    names = [
+        f"{name} (p = {s.p(np.log10(one.fit_p), 1e-4)} for the fit to all sizes, "
+        f"{s.p(np.log10(one.prediction_p), 1e-4)} for sizes not seen)"
+        for name, one in scored.items()
+        if name in left and MODELS[name][1]
+    ]
+    whose = "" if found.part == WHOLE else " for the interior"
+    return (
+        f"{it} has a limit, among the {s(len(scored))} models tried: all that have none are "
+        f"out{whose}, and the {_models(names)}."
+    )
+
+
+def verdict_sentence(key: tuple, it: str, s: Sheet) -> str:
+    """The verdict on a limit, in words."""
+    found = one_limit(*key)
+    assert found is not None
+    opening = it[0].upper() + it[1:]
+    if found.word == "yes":
+        return _with_a_limit(found, key, opening, s)
+    if found.word == "no":
+        grows = "grows" if per_decade(key, found.part)[0] > 0 else "falls"
         return (
-            f"{opening} has no limit in sight: it {grows} like a logarithm of the number of points "
-            "or faster."
+            f"{opening} has no limit in sight, among the models tried: "
+            f"{'it' if found.part == WHOLE else _MEAN_OF[found.part]} {grows} like a logarithm of "
+            "the number of points or faster."
         )
     stays = f"Whether {it} has a limit stays undecided:"
-    if reason.startswith("no change"):
-        _, low, high = per_decade(key, part)
+    if found.reason.startswith("no change"):
+        _, low, high = per_decade(key, found.part)
         return (
             f"{stays} no change is seen, but with each tenfold number of points it may be from "
             f"{s(low)} to {s(high)}."
         )
-    if reason == "no model follows the means":
-        return f"{stays} {reason}."
-    left = set(survivors(*key, part))
+    if found.reason != "models with and without a limit survive":
+        return f"{stays} {found.reason}."
+    left = set(survivors(*key, found.part))
     names = [[m for m in MODELS if m in left and MODELS[m][1] is has] for has in (True, False)]
     if not names[1]:
         return (
@@ -397,28 +521,33 @@ def verdict_sentence(key: tuple, part: str, it: str, s: Sheet) -> str:
 
 @recount("limit", "Whether the mean has a limit needs")
 def more_sizes(v: View, s: Sheet, k: int) -> str:
-    needs = all(verdict(*v.key, part) is None for part in (WHOLE, INTERIOR))
+    needs = one_limit(*v.key) is None
     return f"Whether the mean has a limit needs {'more' if needs else 'no more'} sizes."
 
 
-_LIMIT = r"(It|The mean of the whole mesh|Whether it|Whether the mean of the whole mesh) (has|is) "
-_LIMIT_INSIDE = r"(The|Whether the) mean of the interior (has|is) "
+@recount("key-figures", "(It|Whether it) has ")
+def limit_in_short(v: View, s: Sheet, k: int) -> str:
+    return verdict_sentence(v.key, "it", s)
 
 
-@recount("key-figures", _LIMIT)
-def whole_limit(v: View, s: Sheet, k: int) -> str:
-    return verdict_sentence(v.key, WHOLE, "it", s)
+@recount("limit", "(The mean|Whether the mean) has ")
+def limit_in_full(v: View, s: Sheet, k: int) -> str:
+    return verdict_sentence(v.key, "the mean", s)
 
 
-@recount("key-figures", _LIMIT_INSIDE)
-@recount("limit", _LIMIT_INSIDE)
-def interior_limit(v: View, s: Sheet, k: int) -> str:
-    return verdict_sentence(v.key, INTERIOR, "the mean of the interior", s)
+@recount("key-figures", "The limit is ")
+@recount("limit", "The limit is ")
+def limit_itself(v: View, s: Sheet, k: int) -> str:
+    found = one_limit(*v.key)
+    value, low, high = (found and found.limit) or (np.nan,) * 3
+    near = 2 * NEAR
+    return f"The limit is {s(value, near)} (95 % from {s(low, near)} to {s(high, near)})."
 
 
-@recount("limit", _LIMIT)
-def whole_limit_in_full(v: View, s: Sheet, k: int) -> str:
-    return verdict_sentence(v.key, WHOLE, "the mean of the whole mesh", s)
+@recount("limit", "But the interior is not level")
+def not_level(v: View, s: Sheet, k: int) -> str:
+    is_not = "is not level, and its mean no limit" if level_mean(v.key) is None else "is level"
+    return f"But the interior {is_not}: they need not agree."
 
 
 def _larger_half(groups: Groups) -> Groups:
@@ -426,22 +555,10 @@ def _larger_half(groups: Groups) -> Groups:
 
 
 def edge_limit(key: tuple) -> tuple[float, float, float, float] | None:
-    """Limit of the thickening edge, mean of level larger interiors, t and p of their difference."""
-    whole, inside = key[0].groups(*key[1:]), _larger_half(key[0].groups(*key[1:], INTERIOR))
-    counts = np.array([len(g) for g in inside.values()])
-    seen = Means(
-        np.array(list(inside)) / 1000,
-        np.array([g.mean() for g in inside.values()]),
-        _smooth(inside) / counts,
-        int((counts - 1).sum()),
-    )
-    n = len(seen.x) - 1
-    if n < 2:
-        return None
-    _, low, high = _along("logarithmic", seen, np.array([0.0, 1.0]))
-    level = stats.f.sf(squares("constant", seen) / n, n, seen.df) >= 0.01 and low <= 0 <= high
-    if not level or any(len(whole[n]) != len(g) for n, g in inside.items()):
-        return None
+    """Limit of the thickening edge, mean of larger interiors, t and p of their difference."""
+    whole = key[0].groups(*key[1:])
+    inside = free_of_edge(*key) or _larger_half(key[0].groups(*key[1:], INTERIOR))
+    seen = means_of(inside)
     of_whole = means(*key, WHOLE)
 
     def weights(model: str, at: Means) -> np.ndarray:
@@ -475,10 +592,10 @@ def edge_check(v: View, s: Sheet, k: int) -> str:
 
 @recount("limit", "The two ")
 def edge_agrees(v: View, s: Sheet, k: int) -> str:
-    limit, interior, t, p = edge_limit(v.key) or (np.nan,) * 4
+    _, _, t, p = edge_limit(v.key) or (np.nan,) * 4
     return (
         f"The two {'agree' if p >= 0.05 else 'do not agree'}: they differ by "
-        f"{s(abs(limit - interior))}, {s(abs(t))} standard errors (p = {s.p(np.log10(p))})."
+        f"{s(abs(t), 1e-3)} standard errors (p = {s.p(np.log10(p), 1e-3)})."
     )
 
 
@@ -488,7 +605,7 @@ def trend(v: View, s: Sheet) -> str:
     welch = welch_test(groups)
     first, last = min(groups), max(groups)
     a, b = groups[first].mean(), groups[last].mean()
-    of_test = f"(Welch's analysis of variance, p = {s.p(welch[3])})"
+    of_test = f"(Welch's analysis of variance, {s.p_is(welch[3])})"
     if welch[3] >= np.log10(0.05):
         return (
             "The mean does not depend on the number of points, as far as this run can tell "
@@ -550,7 +667,28 @@ def which_survive(v: View, s: Sheet, k: int) -> str:
         else "none is refuted"
     )
     of = "the whole mesh" if part == WHOLE else "the interior"
+    smallest = 1000 * means(*v.key, part).x[0]
+    if smallest > min(v.run.groups(v.method, v.distribution, part)):
+        of = f"{of} from {s(smallest)} points on"
     return f"For {of}, {which} and {gone}."
+
+
+@recount("fits", "The .* than the interior")
+def struck_out(v: View, s: Sheet, k: int) -> str:
+    scored = scores(*v.key, WHOLE)
+    names = [m for m in scored if scored[m].struck_out and not scored[m].refuted]
+    return (
+        f"The {listed(names)} {plural(len(names), 'model has', 'models have')} another limit than "
+        "the interior, which is level: out as well."
+    )
+
+
+@recount("fits", "A p below")
+def level_of_refutation(v: View, s: Sheet, k: int) -> str:
+    return (
+        f"A p below {s(refuted_below(v.run))} there, or for the fit to all sizes, refutes it: "
+        "0.01, shared among all trends of this run."
+    )
 
 
 @recount("fits", "At ")
@@ -567,34 +705,49 @@ def logarithm(v: View, s: Sheet, k: int) -> str:
     )
 
 
-def _curves(v: View, s: Sheet, seen: Means, last: Means) -> str:
-    drawn = ("logarithmic", "saturating", "thickening edge", "edge", "linear")
-    at = last.x[-1]
-    values = {m: predicted(m, seen, at) for m in drawn if len(seen.x) > MODELS[m][0]}
-    low, high = min(values, key=values.__getitem__), max(values, key=values.__getitem__)
+def _curves(s: Sheet, values: dict[str, float], at: float, measured: float) -> str:
+    low, high = min(values.values()), max(values.values())
+    # A growing power of next to 0 is the logarithm: which of the two is higher is a rounding.
+    lowest, highest = (
+        either([m for m, value in values.items() if abs(value - end) < NEAR]) for end in (low, high)
+    )
     return (
-        f"At {s(1000 * at)} points the curves for the whole mesh are from {s(values[low], NEAR)} "
-        f"({low}) to {s(values[high], NEAR)} ({high}), and the measured mean is {s(last.y[-1])}."
+        f"At {s(at)} points the curves for the whole mesh are from {s(low, NEAR)} ({lowest}) to "
+        f"{s(high, NEAR)} ({highest}), and the measured mean is {s(measured)}."
     )
 
 
 @recount("figure-projections")
 def curves_beyond(v: View, s: Sheet, k: int) -> str:
-    seen = means(*v.key, WHOLE)
-    return _curves(v, s, seen.where(fitted_sizes(seen)), seen)
+    last = means(*v.key, WHOLE)
+    seen = last.where(fitted_sizes(last))
+    left = survivors(*v.key, WHOLE)
+    values = {
+        m: predicted(m, seen, last.x[-1])
+        for m in MODELS
+        if (m in left or m == "logarithmic") and len(seen.x) > MODELS[m][0]
+    }
+    return _curves(s, values, 1000 * last.x[-1], last.y[-1])
 
 
 @recount("figure-models")
 def curves_of_all(v: View, s: Sheet, k: int) -> str:
-    seen = means(*v.key, WHOLE)
-    return _curves(v, s, seen, seen)
+    groups = v.run.groups(v.method, v.distribution)
+    fits = _least_squares(*v.key)
+    n = max(groups)
+    values = {}
+    for model, fit in fits.items():
+        basis = np.column_stack(BASES[model](np.array([n / 1000])))
+        value = float(fit.predict(basis)[0])
+        values[model] = float(4 * special.expit(value)) if model == "logistic" else value
+    return _curves(s, values, n, groups[n].mean())
 
 
 @recount("projections", "At ")
 def projections(v: View, s: Sheet, k: int) -> str:
     words = []
     for model in survivors(*v.key, WHOLE):
-        if model != "growing power":
+        if model != "growing power" and MODELS[model][1] is not None:
             ends = value_interval(model, v.key, WHOLE, 1e6)
             # So far out, the sixth digit of a variance counts.
             near = 5e-6 + 1e-5 * (ends[2] - ends[1])
@@ -604,8 +757,8 @@ def projections(v: View, s: Sheet, k: int) -> str:
 
 
 @cache
-def adjusted_r2(run: Run, method: str, distribution: str) -> dict[str, float]:
-    """Of the paper's four models by least squares, by statsmodels."""
+def _least_squares(run: Run, method: str, distribution: str) -> dict:
+    """The paper's four models by statsmodels' least squares."""
     groups = run.groups(method, distribution)
     x = np.concatenate([np.full(len(g), n / 1000) for n, g in groups.items()])
     y = np.concatenate(list(groups.values()))
@@ -614,8 +767,14 @@ def adjusted_r2(run: Run, method: str, distribution: str) -> dict[str, float]:
         if model == "logistic" and (y >= 4).any():
             continue
         z = np.log(y / (4 - y)) if model == "logistic" else y
-        made[model] = float(sm.OLS(z, np.column_stack(BASES[model](x))).fit().rsquared_adj)
+        made[model] = sm.OLS(z, np.column_stack(BASES[model](x))).fit()
     return made
+
+
+def adjusted_r2(run: Run, method: str, distribution: str) -> dict[str, float]:
+    """Of the paper's four models."""
+    fits = _least_squares(run, method, distribution)
+    return {model: float(fit.rsquared_adj) for model, fit in fits.items()}
 
 
 @recount("table-7", "Of the paper's four models")

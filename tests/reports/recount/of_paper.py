@@ -26,6 +26,7 @@ class Compared:
     n: int
     z: float
     beyond: float
+    distribution: str = _SHOWN
 
 
 def _beyond(error: float, unit: float) -> float:
@@ -101,7 +102,8 @@ def independent(run: Run, method: str) -> list[Compared]:
             ours = (4 - group.mean()) / group.std(ddof=1)
             error = np.sqrt(0.5 / (r - 1) + 0.5 / (_REPETITIONS - 1))
             z = float(np.log(ours / published) / error)
-            made.append(Compared("t", 1000 * thousands, z, float(2 * stats.norm.sf(2))))
+            beyond = float(2 * stats.norm.sf(2))
+            made.append(Compared("t", 1000 * thousands, z, beyond, distribution))
     return made
 
 
@@ -147,14 +149,14 @@ def printed(v: View, s: Sheet, k: int) -> str:
     return f"The paper prints {s(sum(standings(v.run).values()))} numbers in its seven tables."
 
 
-@recount("scoreboard", ".* of them are independent")
+@recount("scoreboard", ".* of them are not derived")
 def counted(v: View, s: Sheet, k: int) -> str:
     z = np.abs([c.z for c in independent(v.run, v.method)])
     within = int((z <= 2).sum()), int(((z > 2) & (z <= 3)).sum()), int((z > 3).sum())
     return (
-        f"{s(len(z))} of them are independent of one another and can be held against ours by their "
-        f"standard errors: {s(within[0])} within 2 (agreement), {s(within[1])} within 3 (close) "
-        f"and {s(within[2])} beyond (different)."
+        f"{s(len(z))} of them are not derived from another printed number, and can be held against "
+        f"ours by their standard errors: {s(within[0])} within 2 (agreement), {s(within[1])} "
+        f"within 3 (close) and {s(within[2])} beyond (different)."
     )
 
 
@@ -184,7 +186,7 @@ def all_together(v: View, s: Sheet, k: int) -> str:
     less = stats.chi2.cdf(chi2, len(z))
     return (
         f"All together they {words} (χ² = {s(chi2, slack)} on {s(len(z))} degrees of freedom; "
-        f"p = {s.p(p, 0.25 * slack)} for more, {s(less, 0.02 * slack)} for less)."
+        f"{s.p_is(p, 0.25 * slack)} for more, {s(less, 0.02 * slack)} for less)."
     )
 
 
@@ -195,7 +197,7 @@ def shifts(v: View, s: Sheet, k: int) -> str:
         z = of_kind(v.run, v.method, kind)
         shift = z.sum() / np.sqrt(len(z))
         log_p = log10_chi2_tail(shift * shift, 1)
-        each.append(f"{kind} {s(shift)} (p = {s.p(log_p, 1e-6)})")
+        each.append(f"{kind} {s(shift)} ({s.p_is(log_p, 1e-6)})")
         if log_p < -2:
             off.append(kind)
     which = (
@@ -206,20 +208,62 @@ def shifts(v: View, s: Sheet, k: int) -> str:
     return f"Over all groups {which}; ours less the paper's, in standard errors: {listed(each)}."
 
 
+def not_run(run: Run, method: str) -> dict[str, int]:
+    """Published numbers by standing that are of groups which the run does not have."""
+    sizes, p = set(run.groups(method, _SHOWN)), run.published
+    table_3 = p["table_3_uniform_shapiro_wilk"]["rows"]
+    without = sum(1000 * int(group[1:]) not in sizes for group, *_ in table_3)
+    missing = {"same": without, "draws": without, "implied": 0}
+    missing["independent"] = 4 * sum(1000 * row[0] not in sizes for row in _table_4(run))
+    table_6 = p["table_6_t_test_mean_below_4"]
+    for distribution in table_6["columns"][1:]:
+        run_too = distribution in run.distributions
+        there = set(run.groups(method, distribution)) if run_too else set()
+        standing = "implied" if distribution == _SHOWN else "independent"
+        missing[standing] += sum(1000 * row[0] not in there for row in table_6["rows"])
+    if not len(_sets_of_table_1(run)):
+        missing["draws"] += 4 * len(p["table_1_uniform_runs_and_ks"]["rows"])
+    return missing
+
+
+def not_comparable(run: Run, method: str) -> dict[str, int]:
+    """Numbers by standing of Tables 2, 5 and 7 that only the published design has."""
+    n = standings(run)
+    of_table_6 = len(run.published["table_6_t_test_mean_below_4"]["rows"])
+    if has_published_design(run, method):
+        return {}
+    return {
+        "independent": 1,
+        "construction": n["construction"],
+        "implied": n["implied"] - of_table_6,
+    }
+
+
 @recount("scoreboard", "Not counted are")
 def not_counted(v: View, s: Sheet, k: int) -> str:
     n = standings(v.run)
-    return (
-        f"Not counted are {s(n['implied'])} that follow from the paper's own Table 4, "
-        f"{s(n['construction'])} that every run of this design gives, {s(n['same'])} that stand "
-        f"beside the p-value of the same test and {s(n['draws'])} that are random draws, which no "
-        "other run can repeat."
-    )
+    others = sum(n.values()) - len(independent(v.run, v.method))
+    unlike, absent = not_comparable(v.run, v.method), not_run(v.run, v.method)
+    counted = {key: n[key] - unlike.get(key, 0) - absent.get(key, 0) for key in n}
+    counted |= {"unlike": sum(unlike.values()), "absent": sum(absent.values())}
+    each = [
+        f"{s(counted[key])} {words}"
+        for key, words in (
+            ("implied", "that follow from the paper's own Table 4"),
+            ("construction", "that every run of this design gives"),
+            ("same", "that stand beside the p-value of the same test"),
+            ("draws", "that are random draws, which no other run can repeat"),
+            ("unlike", "that cannot be compared with this design"),
+            ("absent", "that belong to groups which this run does not have"),
+        )
+        if counted[key]
+    ]
+    return f"Not counted are the other {s(others)}: {listed(each)}."
 
 
 @cache
-def implausible(run: Run, method: str) -> int | None:
-    """Draws that are not plausible beside ours; None if none can be compared."""
+def implausible(run: Run, method: str) -> tuple[int, int]:
+    """Draws that are not plausible beside ours, and those that can be compared."""
     odd = number = 0
     printed = run.published["table_1_uniform_runs_and_ks"]["rows"]
     of_size = [1000 * row[0] for row in _table_4(run) if _possible(run, 1000 * row[0])[0] == 8]
@@ -238,44 +282,16 @@ def implausible(run: Run, method: str) -> int | None:
         if ours is not None:
             z = (special.ndtri(stats.shapiro(ours).pvalue) - special.ndtri(p)) / np.sqrt(2)
             number, odd = number + 1, odd + (abs(z) > 3)
-    return int(odd) if number else None
+    return int(odd), number
 
 
-@recount("scoreboard", "(All draws|.* draws? (is|are) not plausible)")
+@recount("scoreboard", "(All|Of) .* draws? that")
 def draws(v: View, s: Sheet, k: int) -> str:
-    odd = implausible(v.run, v.method)
+    odd, number = implausible(v.run, v.method)
+    those = f"{s(number)} {plural(number, 'draw')} that can be held against ours"
     if not odd:
-        return "All draws are plausible beside ours."
-    return f"{s(odd)} {plural(odd, 'draw')} {plural(odd, 'is', 'are')} not plausible beside ours."
-
-
-@recount("scoreboard", ".* of all numbers cannot")
-def not_comparable(v: View, s: Sheet, k: int) -> str:
-    # Degrees of freedom, F and p of Tables 2 and 5, and all of Table 7.
-    of_table_6 = len(v.run.published["table_6_t_test_mean_below_4"]["rows"])
-    seven = standings(v.run)["implied"] - 1 - of_table_6
-    n = 0 if has_published_design(v.run, v.method) else 8 + seven
-    return f"{s(n)} of all numbers cannot be compared with this design."
-
-
-@recount("scoreboard", ".* of all numbers belong")
-def not_run(v: View, s: Sheet, k: int) -> str:
-    sizes = set(v.run.groups(v.method, _SHOWN))
-    p = v.run.published
-    missing = 4 * sum(1000 * row[0] not in sizes for row in _table_4(v.run))
-    rows = p["table_3_uniform_shapiro_wilk"]["rows"]
-    missing += 2 * sum(1000 * int(group[1:]) not in sizes for group, *_ in rows)
-    table_6 = p["table_6_t_test_mean_below_4"]
-    for distribution in table_6["columns"][1:]:
-        there = (
-            set(v.run.groups(v.method, distribution))
-            if distribution in v.run.distributions
-            else set()
-        )
-        missing += sum(1000 * row[0] not in there for row in table_6["rows"])
-    if not len(_sets_of_table_1(v.run)):
-        missing += 4 * len(p["table_1_uniform_runs_and_ks"]["rows"])
-    return f"{s(missing)} of all numbers belong to groups that this run does not have."
+        return f"All {those} are plausible."
+    return f"Of {those}, {s(odd)} {plural(odd, 'is', 'are')} not plausible."
 
 
 def _sets_of_table_1(run: Run) -> np.ndarray:
@@ -291,8 +307,8 @@ def group_by_group(v: View, s: Sheet, k: int) -> str:
         z = of_kind(v.run, v.method, kind)
         verdict, chi2, p = _together(z, shift=True)
         words.append(
-            f"{kind} {verdict} (χ² = {s(chi2)} on {s(len(z))} degrees of freedom, p = "
-            f"{s.p(p, 1e-6)}; largest difference {s(np.abs(z).max())} standard errors)"
+            f"{kind} {verdict} (χ² = {s(chi2)} on {s(len(z))} degrees of freedom, "
+            f"{s.p_is(p, 1e-6)}; largest difference {s(np.abs(z).max())} standard errors)"
         )
     return f"Over all groups together, {listed(words)}."
 
@@ -317,36 +333,52 @@ def mean_goes(v: View, s: Sheet, k: int) -> str:
     )
 
 
-@recount("key-figures", "(The paper's triangulations are not|The mean LEPP sizes that the paper)")
+_PLAIN = "plain insertion, which never flips an edge"
+
+
+@recount(
+    "key-figures", "The (paper's triangulations|mean LEPP sizes that the|numbers of the paper)"
+)
 def which_triangulation(v: View, s: Sheet, k: int) -> str:
     tests = {m: _together(of_kind(v.run, m, MEAN), shift=True) for m in v.run.methods}
-    n = len(of_kind(v.run, "incremental", MEAN))
-    verdict, chi2, p = tests["incremental"]
-    numbers = f"(chi-squared {s(chi2)} on {s(n)} degrees of freedom, p = {s.p(p, 1e-6)})"
-    plain = "plain insertion, which never flips an edge"
-    agrees = verdict != "differs"
-    if not agrees or verdict != "agrees":
+
+    def numbers(method: str) -> str:
+        n, (_, chi2, p) = len(of_kind(v.run, method, MEAN)), tests[method]
+        return f"(χ² = {s(chi2)} on {s(n)} degrees of freedom, {s.p_is(p, 1e-6)})"
+
+    prints = "The mean LEPP sizes that the paper prints"
+    if "incremental" not in tests:
+        verb = "do not agree" if tests["delaunay"][0] == "differs" else "agree"
         return (
-            f"The mean LEPP sizes that the paper prints do not agree with this run's {plain} "
-            f"{numbers}."
+            f"{prints} {verb} with Delaunay triangulations {numbers('delaunay')}; {_PLAIN}, was "
+            "not part of this run."
         )
-    if len(tests) == 1:
-        return f"The mean LEPP sizes that the paper prints agree with {plain} {numbers}."
-    if tests["delaunay"][0] == "agrees":
+    if tests["incremental"][0] == "differs":
         return (
-            f"The mean LEPP sizes that the paper prints agree with {plain}, and with Delaunay "
-            "triangulations as well: this run is too small to tell which the paper used."
+            f"{prints} do not agree with this run's {_PLAIN} {numbers('incremental')}: this run "
+            "does not tell which triangulation the paper used."
+        )
+    if "delaunay" not in tests:
+        return (
+            f"The numbers of the paper are those of {_PLAIN}, so its meshes are not Delaunay "
+            "triangulations, as a user of CGAL would expect: the mean LEPP sizes that it prints "
+            f"agree with this run's {numbers('incremental')}."
+        )
+    if tests["delaunay"][0] != "differs":
+        return (
+            f"{prints} agree with {_PLAIN}, and with Delaunay triangulations as well: this run is "
+            "too small to tell which the paper used."
         )
     return (
         "The paper's triangulations are not Delaunay triangulations: the mean LEPP sizes that it "
-        f"prints are those of {plain} {numbers}."
+        f"prints are those of {_PLAIN} {numbers('incremental')}."
     )
 
 
-@recount("key-figures", "The usual choice")
+@recount("key-figures", "Delaunay triangulations were")
 def no_delaunay(v: View, s: Sheet, k: int) -> str:
-    was = "was part" if "delaunay" in v.run.methods else "was not part"
-    return f"The usual choice, a Delaunay triangulation, {was} of this run."
+    was = "were part" if "delaunay" in v.run.methods else "were not part"
+    return f"Delaunay triangulations {was} of this run."
 
 
 @recount("key-figures", "Delaunay triangulations of the same")
@@ -462,9 +494,9 @@ def misprint(v: View, s: Sheet, k: int) -> str:
     x, m = table[:, 0], table[:, 3]
     weights = (x - x.mean()) / ((x - x.mean()) ** 2).sum()
     slope, off = weights @ m, 5e-5 * np.abs(weights).sum()
-    printed = v.run.published["table_7_uniform_regressions"]["linear"]["x_printed"]
+    printed = float(v.run.published["table_7_uniform_regressions"]["linear"]["x_printed"])
     return (
-        f"1 number is a misprint, whatever the data were: {printed:.3e} (linear, b, as printed), "
+        f"1 number is a misprint, whatever the data were: {s(printed)} (linear, b, as printed), "
         f"where Table 4 gives {s(slope - off)} to {s(slope + off)}."
     )
 

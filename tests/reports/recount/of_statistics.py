@@ -45,7 +45,7 @@ def variances(v: View, s: Sheet, k: int) -> str:
     tests = [levene(values(v), center) for center in ("mean", "median")]
     p = [log10_f_tail(*test) for test in tests]
     f, d1, d2 = tests[0]
-    numbers = f"Levene's F({s(d1)}, {s(d2)}) is {s(f)}, p = {s.p(p[0])}"
+    numbers = f"Levene's F({s(d1)}, {s(d2)}) is {s(f)}, {s.p_is(p[0])}"
     unequal = [one < np.log10(0.05) for one in p]
     if all(unequal):
         return f"The groups' variances are not equal: {numbers}."
@@ -259,7 +259,7 @@ def all_tests(v: View, s: Sheet, k: int) -> str:
 @recount("randomness", "About ")
 def had_to(v: View, s: Sheet, k: int) -> str:
     n = sum(len(p) for d in v.run.distributions for p in families(v.run, d).values())
-    return f"About {s(0.05 * n)} had to, even with perfect points."
+    return f"About {s(0.05 * n)} would, even with perfect points."
 
 
 @recount("randomness", "After Holm's")
@@ -292,7 +292,7 @@ def _f_test(s: Sheet, statement: str, f: float, d1: int, d2: int) -> str:
     p = log10_f_tail(f, d1, d2)
     return (
         f"{statement} | {'yes' if p < np.log10(0.05) else 'not shown'} | F = {s(f)} ({s(d1)} and "
-        f"{s(d2)} degrees of freedom), p = {s.p(p)}"
+        f"{s(d2)} degrees of freedom), {s.p_is(p)}"
     )
 
 
@@ -359,14 +359,14 @@ def table_6(v: View, s: Sheet, k: int) -> str:
     word = "no" if beyond else "yes" if rejected == len(p) else "not shown"
     return (
         f"The mean is significantly below 4 and above 2 in every group | {word} | {s(rejected)} of "
-        f"{s(len(p))} tests significant after Bonferroni's correction, p at most {s.p(max(p))}; "
-        "above 2 says nothing, since a path inside has two triangles by definition"
+        f"{s(len(p))} tests significant after Bonferroni's correction, the largest {s.p_is(max(p))}"
+        "; above 2 says nothing, since a path inside has two triangles by definition"
     )
 
 
-@recount("statement Table 7")
+@recount("statement Table 7", "Of the four models")
 def table_7(v: View, s: Sheet, k: int) -> str:
-    start = "Of the four models the logarithmic one has the highest adjusted R squared"
+    start = "Of the four models the logarithmic one has the highest adjusted R²"
     r2 = adjusted_r2(*v.key)
     if len(r2) < 4:
         return f"{start} | not tested | not all four models could be fitted"

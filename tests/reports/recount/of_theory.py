@@ -99,12 +99,13 @@ def law_part(key: tuple) -> str:
 
 @dataclass(frozen=True)
 class Law:
-    """A fitted law: what is fitted, errors, chi-squared, its degrees of freedom, log10 p."""
+    """A fitted law: what is fitted, errors, Hotelling's F, its degrees of freedom, log10 p."""
 
     coefficients: np.ndarray
     errors: np.ndarray
-    chi2: float
+    f: float
     df: int
+    df_residual: int
     log10_p: float
     upto: int
 
@@ -120,8 +121,9 @@ def _judged(
     chi2, m, q = float(off @ inverse @ off), rates.df, number - len(beta)
     inflation = m * (m - 1) / ((m - q) * (m - q - 1))
     covariance = np.linalg.inv(slopes.T @ inverse @ slopes) * inflation
-    p = log10_f_tail(chi2 * (m - q + 1) / (m * q), q, m - q + 1)
-    return Law(beta, np.sqrt(np.diag(covariance)), chi2, q, p, int(rates.sizes[number - 1]))
+    f, rest = chi2 * (m - q + 1) / (m * q), m - q + 1
+    error, upto = np.sqrt(np.diag(covariance)), int(rates.sizes[number - 1])
+    return Law(beta, error, f, q, rest, log10_f_tail(f, q, rest), upto)
 
 
 @cache
@@ -187,10 +189,10 @@ def longest(chance: object, paths: float) -> int | None:
         size += 1
 
 
-def _chi2(law: Law, s: Sheet) -> str:
+def _test(law: Law, s: Sheet) -> str:
     return (
-        f"χ² = {s(law.chi2, 1e-5 * law.chi2)} on {s(law.df)} degrees of freedom, "
-        f"p = {s.p(law.log10_p, 1e-4)}"
+        f"F = {s(law.f, 1e-5 * law.f)} on {s(law.df)} and {s(law.df_residual)} degrees of freedom, "
+        f"{s.p_is(law.log10_p, 1e-4)}"
     )
 
 
@@ -201,8 +203,8 @@ def one_chance(v: View, s: Sheet) -> str:
     if law is None:
         return "The run is too small to test whether one chance fits all steps."
     if law.rejected:
-        return f"No single chance fits the steps ({_chi2(law, s)}, {_IN[part]}), whichever it is."
-    return f"That one chance fits all steps is not rejected ({_chi2(law, s)}, {_IN[part]})."
+        return f"No single chance fits the steps ({_test(law, s)}, {_IN[part]}), whichever it is."
+    return f"That one chance fits all steps is not rejected ({_test(law, s)}, {_IN[part]})."
 
 
 _ONE = "(No single chance|That one chance|The run is too small)"
@@ -260,19 +262,20 @@ def theorem_1_in_short(v: View, s: Sheet, k: int) -> str:
 
 @cache
 def premise_by_size(run: Run, method: str, distribution: str) -> dict[int, tuple]:
-    """By size: verdict on 1/3 at every step, and the least chance to end with its place."""
+    """By size: verdict on 1/3 at every step, least chance to end, its place, end; last size."""
     made = {}
     for n, frame in run.histogram(method, distribution).groupby("n_points"):
         rates = rates_of([matrix(frame)])
         number = rates.n_sure
         if not number:
-            made[int(n)] = ("undecided", np.nan, 0)
+            made[int(n)] = ("undecided", np.nan, 0, np.nan, 0)
             continue
         ended, half = 1 - rates.rates[:number], rates.half[:number]
         holds, fails = (ended - half >= 1 / 3).all(), (ended + half < 1 / 3).any()
         at = int(ended.argmin())
         word = "no" if fails else "yes" if holds else "undecided"
-        made[int(n)] = (word, float(ended[at]), int(rates.sizes[at]))
+        high, upto = float((ended + half)[at]), int(rates.sizes[number - 1])
+        made[int(n)] = (word, float(ended[at]), int(rates.sizes[at]), high, upto)
     return made
 
 
@@ -282,7 +285,7 @@ def all_of(words: list[str]) -> str:
 
 def least_chance(key: tuple) -> tuple[float, int, int] | None:
     """Least chance to end, its size, and the number of points."""
-    known = [(rate, size, n) for n, (_, rate, size) in premise_by_size(*key).items() if size]
+    known = [(rate, size, n) for n, (_, rate, size, *_) in premise_by_size(*key).items() if size]
     return min(known) if known else None
 
 
@@ -299,7 +302,16 @@ def theorem_2_in_short(v: View, s: Sheet, k: int) -> str:
     step = "step ends a path with a chance of at least 1/3"
     opening = "Theorem 2's bounds hold in every triangulation,"
     if all_of(words) == "yes":
-        return f"{opening} and follow from what holds as well, that every {step}."
+        upto = [row[4] for row in premise_by_size(*v.key).values() if row[4]]
+        known = (
+            f"up to size {s(max(upto))}"
+            if min(upto) == max(upto)
+            else f"up to size {s(min(upto))} to {s(max(upto))}, by the number of points"
+        )
+        return (
+            f"{opening} and follow from what holds as well, that every {step}, as far as the "
+            f"chances are known to within 0.05 ({known})."
+        )
     if all_of(words) == "undecided":
         return f"{opening} while it stays open whether every {step}, from which they would follow."
     failed = words.count("no")
@@ -311,12 +323,23 @@ def theorem_2_in_short(v: View, s: Sheet, k: int) -> str:
     )
 
 
+@recount("key-figures", "Theorem 1 takes one chance for all steps, ")
+def one_chance_in_short(v: View, s: Sheet, k: int) -> str:
+    start = "Theorem 1 takes one chance for all steps, which"
+    law = constant_law(*v.key, law_part(v.key))
+    if law is None:
+        return f"{start} this run is too small to test."
+    verdict = "rejected" if law.rejected else "not rejected"
+    return f"{start} is {verdict} ({s.p_is(law.log10_p, 1e-4)})."
+
+
 @recount("types", "At ")
 def share_of_c(v: View, s: Sheet, k: int) -> str:
     n = max(v.run.sizes)
     return (
         f"At {s(n)} {v.word} points the share of such neighbours, which is the chance that a path "
-        f"ends at its first step, is p = {s(share_c(v, n).mean())}."
+        f"ends at its first step, but for the few that end at the boundary there, is "
+        f"p = {s(share_c(v, n).mean())}."
     )
 
 
@@ -340,8 +363,25 @@ def every_step(v: View, s: Sheet, k: int) -> str:
     else:
         where = f"is clear in {s(holds)} of {s(total)} groups"
     return (
-        f"As far as the chances are known to within 0.05, this {where}: the least is "
+        f"As far as the chances are known to within 0.05, this {where}: the least "
+        f"chance to end, at a neighbour of type C or at the boundary, is "
         f"{s(least[0])}, at size {s(least[1])} and {s(least[2])} points."
+    )
+
+
+@recount("types", "That is the edge of the mesh")
+def of_the_edge(v: View, s: Sheet, k: int) -> str:
+    least = least_chance(v.key)
+    n, rates = continuation(*v.key, INTERIOR)  # type: ignore[misc]
+    number = rates.n_sure
+    at = int(rates.rates[:number].argmax())
+    ended, half = 1 - rates.rates[at], rates.half[at]
+    if not ended - half > premise_by_size(*v.key)[least[2]][3]:  # type: ignore[index]
+        return "The interior's least is not known to be higher."
+    return (
+        f"That is the edge of the mesh: in the interior, at {s(n)} points, the least is "
+        f"{s(ended)}, at size {s(rates.sizes[at])}, as far as the chances there are known (up to "
+        f"size {s(rates.sizes[number - 1])})."
     )
 
 
@@ -382,17 +422,18 @@ def moments_inside(v: View, s: Sheet, k: int) -> str:
     )
 
 
-@recount("figure-continuation", "In the (interior|whole mesh), the chance")
+@recount("figure-continuation", "At .* the chance to go on")
 def going_on(v: View, s: Sheet, k: int) -> str:
     part = law_part(v.key)
-    rates = continuation(*v.key, part)[1]  # type: ignore[index]
+    n, rates = continuation(*v.key, part)  # type: ignore[misc]
     law = constant_law(*v.key, part)
     level = law is not None and not law.rejected
     number = rates.n_sure if rates.n_sure > 1 else len(rates.sizes)
     c, half, last = rates.rates[:number], rates.half[:number], rates.sizes[number - 1]
     known = "as far as it is known" if rates.n_sure > 1 else "where it is not known"
     upto = f"up to size {s(last)}, {known} to within 0.05"
-    start = f"In the {'interior' if part == INTERIOR else 'whole mesh'}, the chance to go on"
+    why = "" if n == max(v.run.sizes) else " (the largest number with 16 triangulations or more)"
+    start = f"At {s(n)} points{why}, {_IN[part]}, the chance to go on"
     # Marks are set in the order of the sentence's words, whichever they are.
     ends = f"from {s.percent(c[0])} to {s.percent(c[-1])}"
     steps = np.diff(c)
@@ -407,11 +448,28 @@ def going_on(v: View, s: Sheet, k: int) -> str:
     return f"{start} moves between {s.percent(c.min())} and {s.percent(c.max())}, {upto}."
 
 
+@recount("figure-continuation", "In the whole mesh it falls")
+def rises_again(v: View, s: Sheet, k: int) -> str:
+    whole, inside = (continuation(*v.key, part)[1] for part in (WHOLE, INTERIOR))  # type: ignore[index]
+    c, half = whole.rates[: whole.n_sure], whole.half[: whole.n_sure]
+    least = int(c.argmin())
+    most = least + 1 + int(c[least + 1 :].argmax())
+    end = inside.n_sure - 1
+    low = c[most] - half[most]
+    if not (low > c[least] + half[least] and low > inside.rates[end] + inside.half[end]):
+        return "In the whole mesh it is not known to rise again."
+    return (
+        f"In the whole mesh it falls to {s.percent(c[least])} after {s(whole.sizes[least])} "
+        f"triangles and rises again, to {s.percent(c[most])} after {s(whole.sizes[most])}: the "
+        "longest paths are those along the edge."
+    )
+
+
 @recount("figure-continuation", "One chance for all steps")
 def level_law(v: View, s: Sheet, k: int) -> str:
     law = constant_law(*v.key, law_part(v.key))
     assert law is not None
-    return f"One chance for all steps is not rejected ({_chi2(law, s)})."
+    return f"One chance for all steps is not rejected ({_test(law, s)})."
 
 
 @recount("figure-continuation", "The law ")
@@ -422,9 +480,12 @@ def fitted_law(v: View, s: Sheet, k: int) -> str:
         f"{sign} = {s(value, 1e-6 * abs(value))} ± {s(error, 1e-5 * error)}"
         for sign, value, error in zip("λba", law.coefficients, law.errors, strict=True)
     ]
+    known = continuation(*v.key, law_part(v.key))[1]  # type: ignore[index]
+    further = known.sizes[known.n_sure - 1] > law.upto
+    why = " (no more sizes than a third of the covariance's degrees of freedom)" if further else ""
     return (
-        f"The law λ / (k + b)ᵃ with {listed(words)} is "
-        f"{'rejected' if law.rejected else 'not rejected'} ({_chi2(law, s)})."
+        f"The law λ / (k + b)ᵃ with {listed(words)}, fitted up to size {s(law.upto)}{why}, is "
+        f"{'rejected' if law.rejected else 'not rejected'} ({_test(law, s)})."
     )
 
 
@@ -443,7 +504,8 @@ def longest_seen(v: View, s: Sheet, k: int) -> str:
         scale, b, a = falling.coefficients
         size = longest(lambda at: scale / (at + b) ** a, paths)
         if size:
-            expected.append(f"{s(size)} by this law")
+            although = " (which is rejected)" if falling.rejected else ""
+            expected.append(f"{s(size)} by this law{although}")
     all_steps = float(rates.rates @ rates.reached / rates.reached.sum())
     for chance, words in (
         (rates.rates[0], "Theorem 1 with the chance at the first step"),
@@ -530,9 +592,9 @@ def premise_of_theorem_1(v: View, s: Sheet, k: int) -> str:
 
     return (
         f"{start} | {'no' if law.rejected else 'not rejected'} | The chance to go on is "
-        f"{s(rates.rates[0])} after {s(2)} triangles and {s(rates.rates[at])} after {s(law.upto)} "
-        f"({part}, {s(n)} points). One chance for all: {_chi2(law, s)}"
-        f"{': no p fits' if law.rejected else ''}. What follows, in whole meshes of {s(largest)} "
+        f"{s.percent(rates.rates[0])} after {s(2)} triangles and {s.percent(rates.rates[at])} "
+        f"after {s(law.upto)} ({part}, {s(n)} points). One chance for all: "
+        f"{s.p_is(law.log10_p, 1e-4)}. What follows, in whole meshes of {s(largest)} "
         f"points: with p = {s(p)} of the first step, {are(by_p)} Theorem 1's; with r = {s(r)} of "
         f"all steps the mean fits by construction, {are(by_r, 'mean')} Theorem 1's"
     )
@@ -543,12 +605,12 @@ def premise_of_theorem_2(v: View, s: Sheet, k: int) -> str:
     shares_by_size = [share_c(v, n).mean() for n in v.run.sizes]
     word = all_of([word for word, *_ in premise_by_size(*v.key).values()])
     least = least_chance(v.key)
-    seen = f"p at the first step from {s(min(shares_by_size))} to {s(max(shares_by_size))}; "
+    seen = f"share p of type C from {s(min(shares_by_size))} to {s(max(shares_by_size))}; "
     told = (
         "no step is known to within 0.05"
         if least is None
-        else f"the least chance at any step is {s(least[0])}, at size {s(least[1])} "
-        f"({s(least[2])} points)"
+        else "the least chance to end at any step, at a neighbour of type C or at the boundary, is "
+        f"{s(least[0])}, at size {s(least[1])} ({s(least[2])} points)"
     )
     return (
         f"The probability p of a type C neighbour is at least 1/3, at every step | {word} | "

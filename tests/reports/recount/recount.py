@@ -24,7 +24,7 @@ import of_paper
 import of_rest
 import of_statistics
 import of_theory
-from definitions import DEFINITIONS
+from definitions import DEFINITIONS, FIGURE
 from expected import Sheet
 from page_sentences import Sentence, page_sentences
 from recounts import View, recount_of
@@ -74,7 +74,7 @@ def recount_sentences(sentences: Sequence[Sentence], run: Run) -> Outcome:
     seen: Counter = Counter()
     for one in sentences:
         place = f"{one.place} [{one.method}/{one.distribution}]"
-        if any(one.text in texts for texts in DEFINITIONS.values()):
+        if any(FIGURE.sub("Figure N", one.text) in texts for texts in DEFINITIONS.values()):
             outcome.definitions += 1
             continue
         function = recount_of(one.place, one.text)

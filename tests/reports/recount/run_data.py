@@ -15,7 +15,7 @@ WORDS = {
     "bivariate_normal": "bivariate normal",
     "exponential": "exponential",
 }
-METHODS = {"incremental": "incremental", "delaunay": "Delaunay"}
+METHODS = {"incremental": "plain insertion", "delaunay": "Delaunay"}
 WHOLE, INTERIOR = "whole", "interior"
 INTERIOR_LAYER = 30
 
