@@ -5,7 +5,7 @@ from pathlib import Path
 from reports.page.evidence import Evidence
 from reports.study_page.explorer import explorer_tables
 from reports.study_page.tables import report_tables
-from study.analysis import analyse
+from study.analysis.analyse import analyse
 from study.results import store
 
 

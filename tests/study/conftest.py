@@ -4,7 +4,7 @@ import pytest
 from frames import design, frames
 from scipy import stats
 
-from study.analysis import analyse
+from study.analysis.analyse import analyse
 from study.paper import published
 
 

@@ -1,4 +1,6 @@
 import ast
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -31,3 +33,22 @@ def test_imports_run_one_way(package):
     assert sources
     for path in sources:
         assert not imported(path.read_text(encoding="utf-8")) & forbidden, path
+
+
+def test_every_module_can_be_imported_first():
+    """In a process of its own that forgets all of ours before each."""
+    modules = [
+        ".".join(path.relative_to(root.parent).with_suffix("").parts)
+        for package in (study, reports)
+        for root in [Path(package.__file__).parent]
+        for path in sorted(root.rglob("*.py"))
+        if path.name != "__init__.py"
+    ]
+    script = (
+        "import importlib, sys\n"
+        "for name in sys.argv[1:]:\n"
+        "    for loaded in [m for m in sys.modules if m.split('.')[0] in ('study', 'reports')]:\n"
+        "        del sys.modules[loaded]\n"
+        "    importlib.import_module(name)\n"
+    )
+    subprocess.run([sys.executable, "-c", script, *modules], check=True)

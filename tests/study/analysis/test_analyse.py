@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 from frames import design, failed, frames
 
-from study.analysis import analyse
+from study.analysis.analyse import analyse
 
 
 def bytes_of(tables):

@@ -11,7 +11,7 @@ from statsmodels.stats.multitest import multipletests
 from statsmodels.stats.weightstats import CompareMeans, DescrStatsW
 
 from lepp import INTERIOR_LAYER
-from study.analysis import analyse
+from study.analysis.analyse import analyse
 from study.analysis.distribution_comparison import compared, equivalent, verdict
 
 THREE = design(

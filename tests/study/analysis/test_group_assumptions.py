@@ -7,7 +7,7 @@ from scipy import stats
 from statsmodels.stats.multitest import multipletests
 from statsmodels.stats.oneway import anova_oneway
 
-from study.analysis import analyse
+from study.analysis.analyse import analyse
 
 
 def values_of(results, method, distribution):

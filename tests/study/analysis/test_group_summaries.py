@@ -5,7 +5,7 @@ import pytest
 from frames import design, failed, frames
 from scipy import stats
 
-from study.analysis import analyse
+from study.analysis.analyse import analyse
 
 
 def test_every_cell_of_a_group_by_hand(study):

@@ -8,7 +8,7 @@ import pytest
 from frames import design, frames
 
 from lepp import INTERIOR_LAYER
-from study.analysis import analyse
+from study.analysis.analyse import analyse
 from study.analysis.building import Study
 from study.analysis.limits import limits
 from study.analysis.measurements import groups_of

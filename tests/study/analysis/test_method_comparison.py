@@ -6,7 +6,7 @@ from frames import design, failed, frames
 from scipy import stats
 from statsmodels.regression.linear_model import OLS
 
-from study.analysis import analyse
+from study.analysis.analyse import analyse
 
 
 def test_differences_are_paired_t_tests(study):

@@ -8,7 +8,7 @@ from scipy import stats
 from statsmodels.stats.multitest import multipletests
 
 from lepp import INTERIOR_LAYER
-from study.analysis import analyse
+from study.analysis.analyse import analyse
 from study.analysis.measurements import Measurements
 from study.statistics.homogeneity import homogeneity
 from study.statistics.size_means import SizeMeans

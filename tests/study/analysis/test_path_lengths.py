@@ -7,7 +7,7 @@ from frames import design, frames
 from scipy import stats
 
 from lepp import INTERIOR_LAYER
-from study.analysis import analyse
+from study.analysis.analyse import analyse
 
 SIZES, REPLICATES = (1000, 4000), 12
 THEOREM_1 = ["Theorem 1, first step", "Theorem 1, all steps"]

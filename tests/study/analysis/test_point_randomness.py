@@ -5,7 +5,7 @@ import pytest
 from frames import design, frames
 from scipy import stats
 
-from study.analysis import analyse
+from study.analysis.analyse import analyse
 
 
 def test_points_of_several_methods_count_once(study):

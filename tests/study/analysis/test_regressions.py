@@ -6,7 +6,7 @@ from frames import design, frames
 from scipy import optimize, stats
 from statsmodels.regression.linear_model import OLS, WLS
 
-from study.analysis import analyse
+from study.analysis.analyse import analyse
 from study.analysis.measurements import Measurements, groups_of
 from study.paper import published
 from study.statistics.fitting import Observations, fit_saturating

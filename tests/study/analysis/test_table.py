@@ -7,8 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from study.analysis import Column, Declaration, Table, Tables
-from study.analysis.table import UnknownNameError, select
+from study.analysis.table import Column, Declaration, Table, Tables, UnknownNameError, select
 
 COLUMNS = (
     Column("method", "Triangulation"),

@@ -8,7 +8,7 @@ from scipy import stats
 from test_group_assumptions import values_of
 
 from lepp import LeppCounts
-from study.analysis import analyse
+from study.analysis.analyse import analyse
 
 
 def test_shares_of_types_by_hand(study):

@@ -7,7 +7,7 @@ from frames import design, frames
 from scipy import stats
 from statsmodels.regression.linear_model import OLS
 
-from study.analysis import analyse
+from study.analysis.analyse import analyse
 from study.paper import judging, published, reproduction
 
 
