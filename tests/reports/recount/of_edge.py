@@ -4,10 +4,11 @@ from functools import cache
 
 import numpy as np
 import pandas as pd
-from expected import Sheet, plural
+from expected import Sheet, listed, plural
 from of_growth import means_of
 from recounts import View, recount
-from run_data import INTERIOR, INTERIOR_LAYER, WHOLE, WORDS, Run, log10_f_tail, t95
+from run_data import INTERIOR, INTERIOR_LAYER, WHOLE, WORDS, Run, holm, log10_f_tail, t95
+from scipy import stats
 
 
 @cache
@@ -26,8 +27,10 @@ def layers(run: Run, method: str, distribution: str, n: int) -> pd.DataFrame:
             np.sqrt(r / (r - 1) * (residuals**2).sum()) / one["count"].sum() if r > 1 else np.nan
         )
         half = t95(r - 1) * error if r > 1 and error > 0 else np.nan
-        made.append((layer, one["count"].sum(), mean, mean - half, mean + half))
-    table = pd.DataFrame(made, columns=["layer", "count", "mean", "low", "high"]).set_index("layer")
+        made.append((layer, one["count"].sum(), mean, mean - half, mean + half, error))
+    table = pd.DataFrame(
+        made, columns=["layer", "count", "mean", "low", "high", "error"]
+    ).set_index("layer")
     return table.assign(share=table["count"] / table["count"].sum())
 
 
@@ -103,33 +106,67 @@ def edge_of_largest(v: View, s: Sheet, k: int) -> str:
     return f"At {s(n)} points the edge has {s.percent(edge_share(*v.key, n))} of the triangles."
 
 
-@recount("layers", "Its mean is highest")
-def highest_layer(v: View, s: Sheet, k: int) -> str:
-    table = layers(*v.key, max(v.run.sizes))
-    edge = table[table.index < INTERIOR_LAYER]
+def off_interior(run: Run, method: str, distribution: str, n: int) -> dict[str, list[int]]:
+    """Layers whose means are below and above the interior's: t tests, by Holm's correction."""
+    table = layers(run, method, distribution, n)
+    frame = run.counts("layers", method, distribution)
+    df = frame.loc[frame["n_points"] == n, "replicate"].nunique() - 1
+    if INTERIOR_LAYER not in table.index or df < 1:
+        return {"below": [], "above": []}
+    inside, edge = table.loc[INTERIOR_LAYER], table[table.index < INTERIOR_LAYER]
+    away = (edge["mean"] - inside["mean"]).to_numpy()
+    errors = edge["error"].where(edge["error"] > 0).to_numpy()
+    p = 2 * stats.t.sf(np.abs(away) / np.sqrt(errors**2 + inside["error"] ** 2), df)
+    shown = holm(np.nan_to_num(p, nan=1.0)) < 0.05
+    at = edge.index.to_numpy()
+    return {"below": at[shown & (away < 0)].tolist(), "above": at[shown & (away > 0)].tolist()}
 
-    def at(layer: int) -> str:
-        row = edge.loc[layer]
+
+def _named(numbers: list[int], s: Sheet) -> str:
+    """Layers in words, those in a row by their ends."""
+    runs: list[list[int]] = []
+    for number in numbers:
+        if runs and number == runs[-1][-1] + 1:
+            runs[-1].append(number)
+        else:
+            runs.append([number])
+    words = [f"{s(run[0])} to {s(run[-1])}" if len(run) > 1 else s(run[0]) for run in runs]
+    return f"{plural(len(numbers), 'layer')} {listed(words)}"
+
+
+@recount("layers", "The mean of the interior is")
+def layers_off_interior(v: View, s: Sheet, k: int) -> str:
+    n = max(v.run.counts("layers", v.method, v.distribution)["n_points"])
+    table, off = layers(*v.key, n), off_interior(*v.key, n)
+    inside = s(table.loc[INTERIOR_LAYER, "mean"])
+    words = [f"below it in {_named(off['below'], s)}"] if off["below"] else []
+    if off["above"]:
+        top = table.loc[off["above"], "mean"].idxmax()
+        row = table.loc[top]
         interval = f" (95 % from {s(row.low)} to {s(row.high)})" if row.low == row.low else ""
-        return f"{s(layer)}, at {s(row['mean'])}{interval}"
-
-    sentence = (
-        f"Its mean is highest in layer {at(edge['mean'].idxmax())}, and lowest in layer "
-        f"{at(edge['mean'].idxmin())}"
+        words.append(
+            f"above it in {_named(off['above'], s)}, most in layer {s(top)}, at "
+            f"{s(row['mean'])}{interval}"
+        )
+    where = f"is {' and '.join(words)}" if words else "is not shown to differ from it in any layer"
+    return (
+        f"The mean of the interior is {inside}; by tests of all layers, with Holm's correction, "
+        f"that of the edge {where}."
     )
-    if INTERIOR_LAYER not in table.index:
-        return f"{sentence}."
-    return f"{sentence}; in the interior it is {s(table.loc[INTERIOR_LAYER, 'mean'])}."
 
 
-@recount("figure-layers", "The mean is highest")
-def highest_layers(v: View, s: Sheet, k: int) -> str:
+@recount("figure-layers", "The layer furthest above")
+def furthest_layers(v: View, s: Sheet, k: int) -> str:
     words = []
     for d in v.run.distributions:
-        table = layers(v.run, v.method, d, max(v.run.sizes))
-        top = table["mean"].idxmax()
-        words.append(f"{WORDS[d]} points in layer {s(top)} ({s(table.loc[top, 'mean'])})")
-    return f"The mean is highest for {', '.join(words)}."
+        n = max(v.run.counts("layers", v.method, d)["n_points"])
+        above = off_interior(v.run, v.method, d, n)["above"]
+        layer = "none"
+        if above:
+            means = layers(v.run, v.method, d, n).loc[above, "mean"]
+            layer = f"{s(means.idxmax())} ({s(means.max())})"
+        words.append(f"{WORDS[d]} points, {layer}")
+    return f"The layer furthest above the interior: {'; '.join(words)}."
 
 
 @cache
