@@ -64,7 +64,8 @@ LAYER_MEANS = Declaration(
     f"hull; {INTERIOR_LAYER} stands for that and more. The mean is over all triangles of a layer "
     "in all triangulations of a size, the least, the middle and the largest of them; its standard "
     "error is that of a ratio of sums over triangulations. A layer is above or below the interior "
-    f"where a t test rejects at {SIGNIFICANCE}, by Holm's correction over the layers of the size.",
+    f"where a t test rejects at {SIGNIFICANCE}, by Holm's correction over the layers of the size; "
+    "the errors of both, which come from the same triangulations, are taken as independent.",
 )
 
 LONGEST_PATHS = Declaration(
