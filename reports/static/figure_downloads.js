@@ -121,8 +121,9 @@ class FigureDownloads {
    * @param {string} which of several of its kind
    */
   button(kind, what, save, which = "") {
-    const made = element("button", { type: "button", "data-save": kind, title: what }, kind.toUpperCase() + which);
-    made.setAttribute("aria-label", `Download ${kind.toUpperCase()} of: ${what}`);
+    const shown = kind.toUpperCase() + which;
+    const made = element("button", { type: "button", "data-save": kind, title: what }, shown);
+    made.setAttribute("aria-label", `Download ${which ? shown : `${shown} of: ${what}`}`);
     made.addEventListener("click", save);
     return made;
   }
