@@ -317,7 +317,10 @@ def _figure_layers(evidence: Evidence) -> FigureBlock:
                 top = above.loc[above["mean_lepp"].idxmax()]
                 layer = f"{top['layer']} ({show(top['mean_lepp'], 'fixed2')})"
             words.append(f"{distribution_word(distribution)} points, {layer}")
-        return f"The layer furthest above the interior: {'; '.join(words)}." if words else None
+        if not words:
+            return None
+        interior = f"the interior, which begins at layer {INTERIOR_LAYER}"
+        return f"The layer furthest above {interior}: {'; '.join(words)}."
 
     return FigureBlock(
         id="figure-layers",

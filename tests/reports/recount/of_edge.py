@@ -166,7 +166,8 @@ def furthest_layers(v: View, s: Sheet, k: int) -> str:
             means = layers(v.run, v.method, d, n).loc[above, "mean"]
             layer = f"{s(means.idxmax())} ({s(means.max())})"
         words.append(f"{WORDS[d]} points, {layer}")
-    return f"The layer furthest above the interior: {'; '.join(words)}."
+    begins = f"which begins at layer {INTERIOR_LAYER}"
+    return f"The layer furthest above the interior, {begins}: {'; '.join(words)}."
 
 
 @cache

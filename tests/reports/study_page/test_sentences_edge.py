@@ -94,7 +94,7 @@ def test_figures_have_all_distributions():
     text = grown("saturating", "level")
     said = text.finding("figure-parts")
     assert said.startswith("At 2,000,000 points the whole means of the 2 distributions lie from ")
-    assert "the interior: uniform points, 5 (4.24); exponential points, 5 (4" in text.finding(
+    assert "begins at layer 30: uniform points, 5 (4.24); exponential points, 5 (4" in text.finding(
         "figure-layers"
     )
     assert "100.0 % for uniform points (of 20 and more)" in text.finding("figure-longest")
