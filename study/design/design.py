@@ -276,7 +276,10 @@ def _in_words(value: object) -> str:
 def _sentence(where: str, error: ErrorDetails) -> str:
     """Say what pydantic found wrong: the setting, its value, and what is allowed."""
     if error["type"] == _ONE_A_SIZE:
-        return f"{where} does not have one number among its repetitions for each of its sizes."
+        return (
+            f"{where} does not have one number among its repetitions for each of its sizes: give "
+            "one for all sizes, or a list as long as theirs, with no size twice."
+        )
     name = str(error["loc"][0])
     if error["type"] == "extra_forbidden":
         return f"{where} has an unknown setting {name!r}; the settings are {', '.join(_ALLOWED)}."
