@@ -151,15 +151,17 @@ def sizes_axis(sizes: Iterable[int], title: str) -> Spec:
     )
 
 
-def interval(middle: "Series", low: "Series", high: "Series", color: str = MUTED) -> Spec:
-    """Bars from `low` to `high` through points at `middle`, for ``error_y``."""
+def interval(
+    middle: "Series", low: "Series", high: "Series", color: str = MUTED, *, thin: bool = False
+) -> Spec:
+    """Bars from `low` to `high` through points at `middle`, for ``error_y``; thin ones for many."""
     return {
         "type": "data",
         "symmetric": False,
         "array": _rough(high - middle),
         "arrayminus": _rough(middle - low),
-        "thickness": 1.5,
-        "width": 3,
+        "thickness": 1 if thin else 1.5,
+        "width": 0 if thin else 3,
         "color": color,
     }
 

@@ -22,7 +22,7 @@ _POPULATION = ["method", "distribution"]
 _SET = ["n_points", "replicate"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Measurements:
     """All that a run has measured.
 

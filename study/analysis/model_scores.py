@@ -99,7 +99,7 @@ PROJECTIONS = Declaration(
 @builds(MODEL_SCORES, PREDICTIONS, PROJECTIONS)
 def model_scores(study: Study) -> Iterator[Table]:
     """Score every model on every method, distribution and part."""
-    judged = list(trends(study.data))
+    judged = trends(study.data)
     yield MODEL_SCORES.table(row for trend in judged for row in _scores(trend))
     yield PREDICTIONS.table(row for trend in judged for row in _predictions(trend))
     yield PROJECTIONS.table(row for trend in judged for row in _projections(trend))

@@ -31,7 +31,7 @@ from study.statistics.fitting import (
 )
 from study.statistics.groups import NotEnough
 from study.statistics.limit_verdict import survivors_of
-from study.statistics.model_scores import predict
+from study.statistics.model_scores import fitted_curve
 from study.statistics.models import (
     DOUBLY_LOGARITHMIC,
     EDGE_MODELS,
@@ -257,8 +257,9 @@ def _curves(study: Study) -> Iterator[Row]:
         models |= {LOGARITHMIC.name: LOGARITHMIC}
         for model in MODELS:
             if model.name in models and len(seen) > len(model.terms):
+                curve = fitted_curve(model, seen)
                 for n in _abscissae(trend):
-                    yield _point(trend, model, PREDICTION, n, predict(model, seen, n / 1000))
+                    yield _point(trend, model, PREDICTION, n, curve(n / 1000))
         if trend.key["part"] == WHOLE:
             yield from _least_squares_curves(study, trend)
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from study.statistics.limit_verdict import (
     Candidate,
     LimitVerdict,
     candidates,
-    judge,
+    conclude,
     level_mean,
 )
 from study.statistics.model_scores import sizes_to_fit
@@ -39,6 +40,10 @@ JUDGED_NOTE = (
     f"{100 * FREE_OF_EDGE:g} % of the triangles or more, if they are {LEAST_SIZES} or more, and at "
     "all sizes otherwise."
 )
+
+
+#: What `trends` has returned; forgotten with the data.
+_OF_DATA: "WeakKeyDictionary[Measurements, tuple[Trend, ...]]" = WeakKeyDictionary()
 
 
 @dataclass(frozen=True)
@@ -75,13 +80,23 @@ class Trend:
     def verdict(self) -> LimitVerdict | None:
         """Whether the mean has a limit; None for too few sizes."""
         try:
-            return judge(self.means, PUBLISHED_UP_TO, self.refuted_below, self.level)
+            return conclude(self.means, self.candidates)
         except NotEnough:
             return None
 
 
-def trends(data: Measurements) -> Iterator[Trend]:
-    """Give the trend of every method, distribution and part that has one."""
+def trends(data: Measurements) -> tuple[Trend, ...]:
+    """Return the trend of every method, distribution and part that has one.
+
+    They are the same objects for every table that is made of the same data, so that no model is
+    held against the same means twice.
+    """
+    if data not in _OF_DATA:
+        _OF_DATA[data] = tuple(_trends(data))
+    return _OF_DATA[data]
+
+
+def _trends(data: Measurements) -> Iterator[Trend]:
     means = {
         (method, distribution, part): found
         for method, distribution in data.populations

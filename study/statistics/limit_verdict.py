@@ -194,10 +194,15 @@ def judge(
     NotEnough
         For fewer than `LEAST_SIZES` sizes.
     """
+    fitted = sizes_to_fit(means.n_points, published_up_to, LEAST_FITTED)
+    return conclude(means, candidates(means, fitted, refuted_below, level))
+
+
+def conclude(means: SizeMeans, scored: Iterable[Candidate]) -> LimitVerdict:
+    """Say from models that are scored already whether the mean has a limit; else as `judge`."""
     if len(means) < LEAST_SIZES:
         raise NotEnough(f"a verdict on the limit needs {LEAST_SIZES} sizes, not {len(means)}")
-    fitted = sizes_to_fit(means.n_points, published_up_to, LEAST_FITTED)
-    survivors = survivors_of(candidates(means, fitted, refuted_below, level))
+    survivors = survivors_of(scored)
     family = PowerFamily(means)
     decade = per_decade(means)
     verdict, reason = _verdict(survivors, family, decade)

@@ -8,7 +8,7 @@ ratio for one that is not. Means count with the errors of `SizeMeans`, their pur
 chi-squared over its degrees of freedom is referred to the F distribution.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -84,13 +84,20 @@ def least_squares(model: Model, seen: SizeMeans) -> float:
     return float(weights @ (z - basis @ weighted_least_squares(basis, z, weights)) ** 2)
 
 
-def predict(model: Model, seen: SizeMeans, x: float) -> float:
-    """Mean LEPP size at x thousand points by the weighted fit of a model."""
+def fitted_curve(model: Model, seen: SizeMeans) -> Callable[[float], float]:
+    """Fit a model by weighted least squares.
+
+    Returns
+    -------
+    callable
+        Takes thousands of points and returns the mean LEPP size there.
+    """
     if not isinstance(model, LinearModel):
         family = PowerFamily(seen)
-        return family.at(family.best(*model.powers)[0], x)
+        power = family.best(*model.powers)[0]
+        return lambda x: family.at(power, x)
     coefficients = weighted_least_squares(*_regression(model, seen))
-    return float(model.inverse(model.basis(np.array([x])) @ coefficients)[0])
+    return lambda x: float(model.inverse(model.basis(np.array([x])) @ coefficients)[0])
 
 
 def coefficient_interval(model: LinearModel, seen: SizeMeans, place: int) -> ProfileInterval:
@@ -167,11 +174,11 @@ def predictions(model: Model, means: SizeMeans, fitted: np.ndarray) -> Iterator[
     """Predict each size not fitted from those that are. Parameters as of `prediction_score`."""
     seen = means.where(fitted)
     _need(model, seen)
-    before = least_squares(model, seen)
+    before, curve = least_squares(model, seen), fitted_curve(model, seen)
     for place in np.flatnonzero(~fitted):
         with_it = means.where(fitted | (np.arange(len(means)) == place))
         rise = max(least_squares(model, with_it) - before, 0.0)
-        predicted = predict(model, seen, means.x[place])
+        predicted = curve(means.x[place])
         mean = float(means.means[place])
         yield Prediction(
             int(means.n_points[place]),

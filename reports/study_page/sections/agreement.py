@@ -6,9 +6,7 @@ from collections.abc import Iterator
 import pandas as pd
 
 from lepp import METHODS
-from reports.page import style
 from reports.page.blocks import (
-    FigureBlock,
     Prose,
     Section,
     Subsection,
@@ -17,11 +15,8 @@ from reports.page.blocks import (
     per_view,
 )
 from reports.page.evidence import Evidence
-from reports.page.style import Spec
 from reports.page.views import View
-from reports.study_page.tables import TABLE_4
-from reports.text.words import LEVEL
-from study.analysis.group_summaries import GROUPS
+from reports.study_page.sections.table_4 import QUANTITIES, table_4
 from study.paper.consistency import CONSISTENCY
 from study.paper.judging import (
     AGREES,
@@ -36,14 +31,9 @@ from study.paper.judging import (
 from study.paper.published import (
     BY_CONSTRUCTION,
     IMPLIED,
-    LARGEST_LEPP,
-    MEAN_LEPP,
-    MEAN_TRIANGLES,
     RANDOM_DRAW,
     REFERENCE_METHOD,
     SAME_TEST,
-    SD_BETWEEN,
-    SHOWN,
 )
 from study.paper.reproduction import (
     ALL_INDEPENDENT,
@@ -68,7 +58,7 @@ def section(evidence: Evidence) -> Section:
         "agreement",
         "Agreement with the paper",
         "Are the published numbers right?",
-        (_scoreboard(evidence), _table_4(evidence), _consistency(evidence), _table_1(evidence)),
+        (_scoreboard(evidence), table_4(evidence), _consistency(evidence), _table_1(evidence)),
     )
 
 
@@ -126,18 +116,6 @@ def _together(evidence: Evidence) -> tuple[TableBlock, ...]:
     )
 
 
-def _table_4(evidence: Evidence) -> Subsection:
-    return Subsection(
-        "table-4",
-        "Table 4, group by group",
-        (
-            Prose(per_view(evidence.views, lambda view: _overall(evidence, view))),
-            _means(evidence),
-            TableBlock(TABLE_4, "Ours, and the paper's where it prints one", paper="Table 4"),
-        ),
-    )
-
-
 def _consistency(evidence: Evidence) -> Subsection:
     return Subsection(
         "consistency",
@@ -176,14 +154,6 @@ def _table_1(evidence: Evidence) -> Subsection:
             ),
         ),
     )
-
-
-_QUANTITIES = {
-    MEAN_LEPP: "the mean LEPP size",
-    SD_BETWEEN: "its standard deviation",
-    MEAN_TRIANGLES: "the number of triangles",
-    LARGEST_LEPP: "the largest LEPP",
-}
 
 
 def _verdicts(evidence: Evidence, view: View) -> list[str] | None:
@@ -245,12 +215,12 @@ def _independent(evidence: Evidence, view: View, total: pd.Series) -> Iterator[s
 def _shifts(rows: pd.DataFrame) -> str:
     """Say whether numbers of one kind are off to one side."""
     each = [
-        f"{_QUANTITIES[row.quantity]} {show(row.shift, 'fixed2')} "
+        f"{QUANTITIES[row.quantity]} {show(row.shift, 'fixed2')} "
         f"({p_is(math.log10(row.shift_p) if row.shift_p > 0 else -math.inf)})"
         for row in rows.itertuples()
     ]
     off = [
-        _QUANTITIES[row.quantity] for row in rows.itertuples() if row.shift_p < TABLE_DIFFERS_BELOW
+        QUANTITIES[row.quantity] for row in rows.itertuples() if row.shift_p < TABLE_DIFFERS_BELOW
     ]
     found = (
         "no kind of number is shifted to one side by more than chance"
@@ -346,122 +316,3 @@ def tested_sets(evidence: Evidence) -> str:
     if len(fitting) == 1:
         sentence += ": Table 1 tests sets of that group, and is compared with ours of that size"
     return f"{sentence}."
-
-
-def _overall(evidence: Evidence, view: View) -> list[str] | None:
-    if view.distribution != SHOWN:
-        return [
-            "The paper shows Table 4 for uniform points only; for the others it says that the "
-            "results are alike."
-        ]
-    rows = evidence.rows(OVERALL, method=view.method)
-    each = rows.frame[rows["quantity"].isin(list(_QUANTITIES))]
-    if each.empty:
-        return None
-    words = [
-        f"{_QUANTITIES[row.quantity]} {_VERDICTS[row.verdict]} "
-        f"(χ² = {show(row.chi2, 'fixed1')} on {row.df} degrees of freedom, "
-        f"{p_is(row.log10_p)}; largest difference "
-        f"{show(abs(row.furthest), 'fixed2')} standard errors)"
-        for row in each.itertuples()
-    ]
-    return [f"Over all groups together, {listed(words)}."]
-
-
-_VERDICTS = {AGREES: AGREES, DIFFERS: DIFFERS, TOO_CLOSE: f"agrees {TOO_CLOSE}"}
-
-
-def _means(evidence: Evidence) -> FigureBlock:
-    def draw(view: View) -> Spec | None:
-        rows = evidence.rows(TABLE_4, view)
-        if rows.empty:
-            return None
-        parts = [_beside(evidence, view)]
-        if rows["published_mean"].notna().any():
-            parts.append(_differences(evidence, view))
-        return style.panels(parts, height=560 if len(parts) > 1 else 400)
-
-    def say(view: View) -> str | None:
-        rows = evidence.rows(TABLE_4, view)
-        if rows.empty:
-            return None
-        z = rows["difference"].dropna()
-        if z.empty:
-            first, last = rows.first, rows.last
-            return (
-                f"The mean goes from {show(first['mean_lepp'], 'fixed4')} at {first['n_points']:,} "
-                f"points to {show(last['mean_lepp'], 'fixed4')} at {last['n_points']:,}."
-            )
-        return (
-            f"{int((z.abs() <= AGREES_UP_TO).sum())} of {count(len(z), 'group mean')} lie within "
-            f"{AGREES_UP_TO:g} standard errors of the published one and "
-            f"{int((z.abs() <= CLOSE_UP_TO).sum())} within {CLOSE_UP_TO:g}; the largest "
-            f"difference is {show(z.abs().max(), 'fixed2')}."
-        )
-
-    return FigureBlock(
-        id="figure-means",
-        title="Mean LEPP size, ours and the paper's",
-        specs=per_view(evidence.views, draw),
-        alternatives=per_view(evidence.views, say),
-        reading="Where the paper prints a mean, the lower panel has the difference; dotted lines "
-        f"are at {AGREES_UP_TO:g} standard errors.",
-        data=(TableBlock(TABLE_4, "means by number of points"),),
-    )
-
-
-def _beside(evidence: Evidence, view: View) -> style.Panel:
-    groups, rows = evidence.rows(GROUPS, view), evidence.rows(TABLE_4, view)
-    traces = [
-        *style.band(
-            groups.column("n_points"),
-            groups.column("mean_low"),
-            groups.column("mean_high"),
-            f"{LEVEL} interval",
-        ),
-        style.scatter(
-            x=rows.column("n_points"),
-            y=rows.column("mean_lepp"),
-            mode="lines+markers",
-            name="this run",
-            line=style.line(0),
-            marker=style.marker(0),
-            hovertemplate="%{x:,} points: %{y:.4f}<extra>this run</extra>",
-        ),
-    ]
-    if rows["published_mean"].notna().any():
-        traces.append(
-            style.scatter(
-                x=rows.column("n_points"),
-                y=rows.column("published_mean"),
-                mode="markers",
-                name="the paper",
-                marker=style.marker(1, 8),
-                hovertemplate="%{x:,} points: %{y:.4f}<extra>the paper</extra>",
-            )
-        )
-    return style.Panel(
-        traces,
-        style.number_of_points(evidence.design.sizes),
-        style.axis("Mean LEPP size"),
-        height=2,
-    )
-
-
-def _differences(evidence: Evidence, view: View) -> style.Panel:
-    rows = evidence.rows(TABLE_4, view)
-    furthest = max(CLOSE_UP_TO, 1.15 * float(rows["difference"].abs().max()))
-    bars = style.bars(
-        x=rows.column("n_points"),
-        y=rows.column("difference"),
-        name="difference",
-        showlegend=False,
-        marker={"color": style.SERIES[0]},
-        hovertemplate="%{x:,} points: %{y:.2f} standard errors<extra></extra>",
-    )
-    return style.Panel(
-        [bars],
-        style.number_of_points(evidence.design.sizes, matches="x"),
-        style.axis("Ours − paper’s<br>(standard errors)", range=[-furthest, furthest]),
-        levels=(style.Level(-AGREES_UP_TO), style.Level(AGREES_UP_TO)),
-    )

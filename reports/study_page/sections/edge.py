@@ -20,6 +20,7 @@ from study.analysis.part_means import (
     PART_MEANS,
 )
 from study.analysis.parts import INTERIOR, WHOLE
+from study.analysis.table import Rows
 from study.statistics.verdicts import REJECTED
 from study.text.numbers import count, listed, p_is, show
 
@@ -133,37 +134,54 @@ def _one_mean(evidence: Evidence, view: View) -> str | None:
     )
 
 
-def _distributions(evidence: Evidence, make: Callable[[str, int], list[Spec]]) -> list[Spec]:
-    return [
-        trace for k, name in enumerate(evidence.design.distributions) for trace in make(name, k)
-    ]
+def _lines(
+    evidence: Evidence,
+    rows_of: Callable[[str], Rows],
+    x: str,
+    y: str,
+    hover: str,
+    in_legend: bool | None = None,
+) -> list[Spec]:
+    """Draw a line for each distribution that has rows, with intervals where there are some.
+
+    Whether they are in the legend is said where several panels share one.
+    """
+    shared = in_legend is not None
+    lines = []
+    for series, distribution in enumerate(evidence.design.distributions):
+        rows = rows_of(distribution)
+        if rows.empty:
+            continue
+        name = distribution_name(distribution)
+        line = style.scatter(
+            x=rows.column(x),
+            y=rows.column(y),
+            mode="lines+markers",
+            name=name,
+            line=style.line(series),
+            marker=style.marker(series),
+            hovertemplate=f"{hover}<extra>{name}</extra>",
+            **({"legendgroup": distribution, "showlegend": in_legend} if shared else {}),
+        )
+        if "low" in rows.frame:
+            line["error_y"] = style.interval(
+                rows[y], rows["low"], rows["high"], style.line(series)["color"], thin=True
+            )
+        lines.append(line)
+    return lines
 
 
 def _figure_parts(evidence: Evidence) -> FigureBlock:
     def draw(view: View) -> Spec | None:
         def traces(part: str) -> list[Spec]:
-            def of(distribution: str, series: int) -> list[Spec]:
-                rows = evidence.rows(PART_MEANS, View(view.method, distribution), part=part)
-                if rows.empty:
-                    return []
-                return [
-                    style.scatter(
-                        x=rows.column("n_points"),
-                        y=rows.column("mean_lepp"),
-                        mode="lines+markers",
-                        name=distribution_name(distribution),
-                        legendgroup=distribution,
-                        showlegend=part == WHOLE,
-                        line=style.line(series),
-                        marker=style.marker(series),
-                        error_y=_errors(rows.frame),
-                        hovertemplate="%{x:,} points: %{y:.4f}<extra>"
-                        + distribution_name(distribution)
-                        + "</extra>",
-                    )
-                ]
-
-            return _distributions(evidence, of)
+            return _lines(
+                evidence,
+                lambda name: evidence.rows(PART_MEANS, View(view.method, name), part=part),
+                "n_points",
+                "mean_lepp",
+                "%{x:,} points: %{y:.4f}",
+                in_legend=part == WHOLE,
+            )
 
         parts = [(part, traces(part)) for part in (WHOLE, INTERIOR)]
         drawn = [
@@ -206,24 +224,13 @@ def _figure_parts(evidence: Evidence) -> FigureBlock:
     )  # fmt: skip
 
 
-def _errors(frame: pd.DataFrame) -> Spec:
-    return {
-        "type": "data",
-        "symmetric": False,
-        "thickness": 1,
-        "width": 0,
-        "array": frame["high"] - frame["mean_lepp"],
-        "arrayminus": frame["mean_lepp"] - frame["low"],
-    }
-
-
-def _at_largest(evidence: Evidence, view: View) -> pd.DataFrame:
-    frame = evidence.rows(LAYER_MEANS, view).frame
-    return frame[frame["n_points"] == frame["n_points"].max()]
+def _at_largest(evidence: Evidence, view: View) -> Rows:
+    rows = evidence.rows(LAYER_MEANS, view)
+    return rows if rows.empty else rows.select(n_points=rows["n_points"].max())
 
 
 def _layers(evidence: Evidence, view: View) -> list[str] | None:
-    layers = _at_largest(evidence, view)
+    layers = _at_largest(evidence, view).frame
     edge = layers[layers["layer"] < INTERIOR_LAYER]
     if edge.empty:
         return None
@@ -271,26 +278,13 @@ def _with_interval(row: pd.Series) -> str:
 
 def _figure_layers(evidence: Evidence) -> FigureBlock:
     def draw(view: View) -> Spec | None:
-        def of(distribution: str, series: int) -> list[Spec]:
-            layers = _at_largest(evidence, View(view.method, distribution))
-            if layers.empty:
-                return []
-            return [
-                style.scatter(
-                    x=layers["layer"],
-                    y=layers["mean_lepp"],
-                    mode="lines+markers",
-                    name=distribution_name(distribution),
-                    line=style.line(series),
-                    marker=style.marker(series),
-                    error_y=_errors(layers),
-                    hovertemplate="layer %{x}: %{y:.4f}<extra>"
-                    + distribution_name(distribution)
-                    + "</extra>",
-                )
-            ]
-
-        traces = _distributions(evidence, of)
+        traces = _lines(
+            evidence,
+            lambda name: _at_largest(evidence, View(view.method, name)),
+            "layer",
+            "mean_lepp",
+            "layer %{x}: %{y:.4f}",
+        )
         if not traces:
             return None
         ticks = list(range(0, INTERIOR_LAYER + 1, 5))
@@ -308,7 +302,7 @@ def _figure_layers(evidence: Evidence) -> FigureBlock:
     def say(view: View) -> str | None:
         words = []
         for distribution in evidence.design.distributions:
-            layers = _at_largest(evidence, View(view.method, distribution))
+            layers = _at_largest(evidence, View(view.method, distribution)).frame
             if layers.empty:
                 continue
             above = layers[layers["against_interior"] == ABOVE]
@@ -362,25 +356,13 @@ def _longest(evidence: Evidence, view: View) -> list[str] | None:
 
 def _figure_longest(evidence: Evidence) -> FigureBlock:
     def draw(view: View) -> Spec | None:
-        def of(distribution: str, series: int) -> list[Spec]:
-            rows = evidence.rows(LONGEST_PATHS, View(view.method, distribution))
-            if rows.empty:
-                return []
-            return [
-                style.scatter(
-                    x=rows.column("lepp_size"),
-                    y=rows.column("edge_share"),
-                    mode="lines+markers",
-                    name=distribution_name(distribution),
-                    line=style.line(series),
-                    marker=style.marker(series),
-                    hovertemplate="%{x} and more: %{y:.2%}<extra>"
-                    + distribution_name(distribution)
-                    + "</extra>",
-                )
-            ]
-
-        traces = _distributions(evidence, of)
+        traces = _lines(
+            evidence,
+            lambda name: evidence.rows(LONGEST_PATHS, View(view.method, name)),
+            "lepp_size",
+            "edge_share",
+            "%{x} and more: %{y:.2%}",
+        )
         if not traces:
             return None
         return style.plot(

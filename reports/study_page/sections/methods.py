@@ -9,7 +9,7 @@ from reports.page.blocks import FigureBlock, Prose, Section, Subsection, TableBl
 from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View, distribution_word
-from reports.study_page.sections.theory import LONG
+from reports.study_page.sections.continuation import LONG
 from reports.study_page.tables import TABLE_4, statements_compared_by
 from reports.text.words import LEVEL, every
 from study.analysis.group_summaries import GROUPS

@@ -14,9 +14,9 @@ from reports.page.blocks import (
 )
 from reports.page.evidence import Evidence
 from reports.page.views import View
+from reports.study_page.sections.continuation import one_chance_in_short
+from reports.study_page.sections.limit import trend_sentence
 from reports.study_page.sections.plain_insertion import paper_triangulation
-from reports.study_page.sections.regressions import trend_sentence
-from reports.study_page.sections.theory import one_chance_in_short
 from reports.study_page.tables import TABLE_4
 from reports.text.words import LEVEL
 from study.analysis.group_summaries import GROUPS, OVERVIEW

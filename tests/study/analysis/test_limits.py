@@ -11,7 +11,8 @@ from lepp import INTERIOR_LAYER
 from study.analysis.analyse import analyse
 from study.analysis.building import Study
 from study.analysis.limits import limits
-from study.analysis.measurements import groups_of
+from study.analysis.measurements import Measurements, groups_of
+from study.analysis.trends import trends
 from study.statistics.edge_limit import edge_limit
 from study.statistics.groups import Groups
 from study.statistics.limit_verdict import candidates, judge, survivors_of
@@ -45,6 +46,12 @@ def made(curve, seed=3):
     results["mean_lepp"] = curve(n / 1000) + noise
     layers = layers[layers["layer"] != INTERIOR_LAYER]
     return asked, results, analyse(results, histograms, regions, layers, sets, asked)
+
+
+class StandIn(SimpleNamespace):
+    """Stands for measurements, and is told from others as these are: by which it is."""
+
+    __hash__ = object.__hash__
 
 
 @pytest.fixture(scope="module", params=CURVES)
@@ -148,7 +155,7 @@ def of_parts(whole, interior, share=0.95):
         inside = share(n) if callable(share) else share
         layers += [(n, 0, 1 - inside), (n, INTERIOR_LAYER, inside)]
     of = {part: Groups(np.array(SIZES), tuple(values)) for part, values in parts.items()}
-    data = SimpleNamespace(
+    data = StandIn(
         populations=[("delaunay", "uniform")],
         groups=lambda method, distribution, part: of[part],
         by_layer=lambda *_: pd.DataFrame(layers, columns=["n_points", "layer", "count"]),
@@ -255,3 +262,10 @@ def test_few_sizes_are_undecided_without_being_missed():
     scores = tables["model_scores"].frame
     assert set(scores["fitted_up_to"]) == {4000}
     assert set(scores["predicted"]) == {1}
+
+
+def test_trends_are_the_same_for_all_tables_of_the_same_data():
+    asked = design(sizes=(1000, 2000, 4000, 8000, 16000))
+    one, other = (Measurements.of(*frames(asked, seed), asked) for seed in (1, 2))
+    assert trends(one) is trends(one)
+    assert trends(other)[0].means.means.tolist() != trends(one)[0].means.means.tolist()

@@ -9,9 +9,9 @@ from study.statistics import models
 from study.statistics.groups import NotEnough
 from study.statistics.model_scores import (
     coefficient_interval,
+    fitted_curve,
     lack_of_fit,
     least_squares,
-    predict,
     prediction_score,
     predictions,
     sizes_to_fit,
@@ -103,7 +103,7 @@ def test_the_logistic_model_is_a_line_for_the_logit():
     fit = WLS(z, basis, weights=1 / (slope * ERRORS) ** 2).fit()
     assert least_squares(models.LOGISTIC, means) == pytest.approx(fit.ssr, rel=1e-4)
     expected = 4 / (1 + np.exp(-fit.predict([[1, 5000.0]])[0]))
-    assert predict(models.LOGISTIC, means, 5000.0) == pytest.approx(expected, rel=1e-6)
+    assert fitted_curve(models.LOGISTIC, means)(5000.0) == pytest.approx(expected, rel=1e-6)
     high = SizeMeans(SIZES, means.means + 1, ERRORS**2, 60)
     with pytest.raises(NotEnough, match="of 4 or more has no logistic"):
         least_squares(models.LOGISTIC, high)
