@@ -26,7 +26,7 @@ from study.analysis import (
 from study.analysis.building import build
 from study.analysis.measurements import Measurements
 from study.analysis.table import DISTRIBUTION, METHOD, Column, Declaration, Tables
-from study.paper import consistency, reproduction, runs_lattice, statements
+from study.paper import consistency, reproduction, runs_lattice, scoreboard, statements
 
 if TYPE_CHECKING:
     from study.design.design import Design
@@ -70,8 +70,8 @@ BUILDERS = (
     model_scores.model_scores,
     limits.limits,
     reproduction.reproduction,
-    reproduction.summary,
-    reproduction.overall,
+    scoreboard.summary,
+    scoreboard.overall,
     consistency.consistency,
     runs_lattice.runs_lattice,
     statements.statements,

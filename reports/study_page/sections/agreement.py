@@ -35,17 +35,17 @@ from study.paper.published import (
     REFERENCE_METHOD,
     SAME_TEST,
 )
-from study.paper.reproduction import (
+from study.paper.reproduction import REPRODUCTION
+from study.paper.runs_lattice import RUNS_LATTICE
+from study.paper.scoreboard import (
     ALL_INDEPENDENT,
     JUDGED,
     OVERALL,
-    REPRODUCTION,
     SUMMARY,
     TOO_CLOSE,
     independent_column,
     verdict_column,
 )
-from study.paper.runs_lattice import RUNS_LATTICE
 from study.statistics.thresholds import AGREES_UP_TO, CLOSE_UP_TO, TABLE_DIFFERS_BELOW
 from study.statistics.verdicts import UNDECIDED, YES
 from study.text.notation import typeset

@@ -7,7 +7,7 @@ from reports.page.evidence import Evidence
 from reports.study_page.tables import TABLE_4
 from study.paper.judging import DIFFERS
 from study.paper.published import MEAN_LEPP, REFERENCE_METHOD, SHOWN
-from study.paper.reproduction import OVERALL
+from study.paper.scoreboard import OVERALL
 from study.text.numbers import listed, p_is, show
 
 _PLAIN = "plain insertion, which never flips an edge"

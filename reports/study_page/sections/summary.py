@@ -25,7 +25,8 @@ from study.analysis.terminal_regions import REGIONS
 from study.analysis.theorems import MEAN, SD, THEOREM_1, THEOREM_2
 from study.paper.judging import DIFFERS
 from study.paper.published import INDEPENDENT, REFERENCE_METHOD, SHOWN
-from study.paper.reproduction import JUDGED, REPRODUCTION
+from study.paper.reproduction import REPRODUCTION
+from study.paper.scoreboard import JUDGED
 from study.paper.statements import NOT_TESTED, STATEMENTS
 from study.statistics.tails import log10_chi2_tail
 from study.statistics.thresholds import CLOSE_UP_TO, ROUGH_RATE

@@ -10,7 +10,7 @@ from reports.text.words import LEVEL
 from study.analysis.group_summaries import GROUPS
 from study.paper.judging import AGREES, DIFFERS
 from study.paper.published import LARGEST_LEPP, MEAN_LEPP, MEAN_TRIANGLES, SD_BETWEEN, SHOWN
-from study.paper.reproduction import OVERALL, TOO_CLOSE
+from study.paper.scoreboard import OVERALL, TOO_CLOSE
 from study.statistics.thresholds import AGREES_UP_TO, CLOSE_UP_TO
 from study.text.numbers import count, listed, p_is, show
 

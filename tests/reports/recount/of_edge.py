@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 import pandas as pd
 from expected import Sheet, listed, plural
-from of_growth import means_of
+from growth import means_of
 from recounts import View, recount
 from run_data import INTERIOR, INTERIOR_LAYER, WHOLE, WORDS, Run, holm, log10_f_tail, t95
 from scipy import stats

@@ -5,8 +5,8 @@ from functools import cache
 import naive
 import numpy as np
 from expected import Sheet, listed, plural
+from growth import NEAR, one_limit
 from of_comparisons import analogous as _analogous
-from of_growth import NEAR, one_limit
 from of_paper import independent
 from of_statistics import figure_5, figure_6, table_2, table_3, table_4, table_5, table_6, table_7
 from of_theory import (

@@ -18,6 +18,7 @@ if __name__ == "__main__":
     sys.path[:0] = [str(_ROOT), str(_ROOT / "tests" / "lepp")]
 
 import of_comparisons
+import of_consistency
 import of_edge
 import of_growth
 import of_paper
@@ -30,7 +31,9 @@ from page_sentences import Sentence, page_sentences
 from recounts import View, recount_of
 from run_data import Run
 
-MODULES = (of_comparisons, of_edge, of_growth, of_paper, of_rest, of_statistics, of_theory)
+MODULES = (
+    of_comparisons, of_consistency, of_edge, of_growth, of_paper, of_rest, of_statistics, of_theory,
+)  # fmt: skip
 
 
 @dataclass

@@ -9,7 +9,7 @@ from reports.study_page.sections.plain_insertion import paper_triangulation
 from reports.study_page.tables import TABLE_4
 from study.analysis.table import Tables
 from study.paper.judging import AGREES, DIFFERS
-from study.paper.reproduction import OVERALL, TOO_CLOSE
+from study.paper.scoreboard import OVERALL, TOO_CLOSE
 
 PLAIN = "plain insertion, which never flips an edge"
 

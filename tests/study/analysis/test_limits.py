@@ -244,11 +244,11 @@ def test_an_interior_is_judged_where_it_is_free_of_the_edge(free, sizes):
 def test_models_are_refuted_at_a_level_for_all_trends():
     one = design(distributions=("uniform",))
     two = design(distributions=("uniform", "exponential"))
-    for asked, trends in ((one, 2), (two, 4)):
+    for asked, shared in ((one, 2), (two, 4)):
         scores = analyse(*frames(asked), asked)["model_scores"].frame
-        assert set(scores["refuted_below"]) == {0.01 / trends}
+        assert set(scores["refuted_below"]) == {0.01 / shared}
         p = scores[["fit_p", "prediction_p"]].min(axis=1)
-        assert ((scores["standing"] == "refuted") == (p < 0.01 / trends)).all()
+        assert ((scores["standing"] == "refuted") == (p < 0.01 / shared)).all()
 
 
 def test_few_sizes_are_undecided_without_being_missed():

@@ -8,7 +8,8 @@ from scipy import stats
 from statsmodels.regression.linear_model import OLS
 
 from study.analysis.analyse import analyse
-from study.paper import judging, published, reproduction
+from study.paper import judging, published
+from study.paper.scoreboard import _together
 
 
 def scoreboard(tables, **wanted):
@@ -84,7 +85,7 @@ SPREAD = np.tile([0.8, -0.8], 10)
 )
 def test_verdicts_on_all_together(z, verdict):
     judged = pd.DataFrame({"difference": z, "chance_beyond": 0.0455})
-    row = reproduction._together(judged, shift=True)
+    row = _together(judged, shift=True)
     assert row["verdict"] == verdict
     chi2 = (z**2).sum()
     assert row["p"] == pytest.approx(stats.chi2.sf(chi2, 20))
@@ -96,13 +97,13 @@ def test_verdicts_on_all_together(z, verdict):
 
 def test_numbers_of_different_kinds_have_no_common_shift():
     judged = pd.DataFrame({"difference": 0.6 + SPREAD, "chance_beyond": 0.0455})
-    row = reproduction._together(judged, shift=False)
+    row = _together(judged, shift=False)
     assert row["verdict"] == "agrees"
     assert "shift" not in row
     assert row["expected_beyond"] == pytest.approx(0.91)
     assert row["beyond"] == 0
     judged["difference"] *= 2
-    assert reproduction._together(judged, shift=False)["beyond"] == 10
+    assert _together(judged, shift=False)["beyond"] == 10
 
 
 def test_errors_do_not_hang_on_equal_variances(paper_study):
