@@ -23,17 +23,6 @@ function fileNameOf(id, parts, kind) {
 const addressOf = (svgText) => `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svgText)}`;
 
 /**
- * @param {Blob} content
- * @param {string} name
- */
-function saveFile(content, name) {
-  const link = element("a", { download: name });
-  link.href = URL.createObjectURL(content);
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 60_000); // a busy browser reads it late
-}
-
-/**
  * A copy of a drawing of the page that needs no style sheet.
  * @param {SVGSVGElement} drawing
  */
@@ -153,7 +142,7 @@ class FigureDownloads {
     const image = framed(drawing, this.titleOf(figure));
     const content = kind === "png" ? await pixelsOf(image)
       : new Blob([new XMLSerializer().serializeToString(image)], { type: "image/svg+xml" });
-    saveFile(content, fileNameOf(figure.id, this.partsOf(figure), kind));
+    saveFile(fileNameOf(figure.id, this.partsOf(figure), kind), content);
   }
 
   /** @param {PlotlyHost} host */
@@ -175,12 +164,11 @@ class FigureDownloads {
    * @param {HTMLElement} host of the table
    * @param {boolean} several whether the figure has further tables
    */
-  saveData(figure, { dataset }, several) {
+  saveData(figure, host, several) {
     const view = this.currentView();
-    const table = this.report.table(dataset.table ?? "");
-    const followed = (dataset.follows ?? "").split(" ").filter(Boolean).map((name) => [name, view[name]]);
-    const rows = table.select({ ...Object.fromEntries(followed), ...JSON.parse(dataset.where ?? "{}") });
-    const parts = [...several ? [table.name] : [], ...followed.map(([, value]) => value).reverse()];
-    saveFile(new Blob([table.csvOf(table.columns, rows)], { type: "text/csv" }), fileNameOf(figure.id, parts, "csv"));
+    const table = this.report.table(host.dataset.table ?? "");
+    const values = followedBy(host, view).map(([, value]) => value).reverse();
+    const parts = [...several ? [table.name] : [], ...values];
+    saveCsv(fileNameOf(figure.id, parts, "csv"), table.csvOf(table.columns, table.select(whereOf(host, view))));
   }
 }

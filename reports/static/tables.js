@@ -25,17 +25,6 @@ function element(name, attributes = {}, ...children) {
 }
 
 /**
- * @param {string} name of the file
- * @param {string} text
- */
-function download(name, text) {
-  const link = element("a", { download: name });
-  link.href = URL.createObjectURL(new Blob([text], { type: "text/csv" }));
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 60_000); // a busy browser reads it late
-}
-
-/**
  * Rows in the order of a column: numbers by value, words by the alphabet, empty cells last. Rows
  * that are equal there stay in the order they have.
  * @param {number[]} rows
@@ -134,6 +123,24 @@ function markClipped(scroll) {
 }
 
 /**
+ * The switches that pick the rows of a table, with what they are set to.
+ * @param {HTMLElement} host
+ * @param {Record<string, string>} view
+ * @returns {[string, string][]}
+ */
+const followedBy = (host, view) =>
+  (host.dataset.follows ?? "").split(" ").filter(Boolean).map((name) => [name, view[name]]);
+
+/**
+ * What a view asks of the rows of a table.
+ * @param {HTMLElement} host
+ * @param {Record<string, string>} view
+ * @returns {Record<string, any>}
+ */
+const whereOf = (host, view) =>
+  ({ ...Object.fromEntries(followedBy(host, view)), ...JSON.parse(host.dataset.where ?? "{}") });
+
+/**
  * The columns that a table shows, and the rows that the view picks.
  * @param {HTMLElement} host
  * @param {Table} table
@@ -141,9 +148,7 @@ function markClipped(scroll) {
  * @param {Record<string, string[]>} choices
  */
 function picked(host, table, view, choices) {
-  /** @type {[string, string][]} */
-  const followed = (host.dataset.follows ?? "").split(" ").filter(Boolean).map((name) => [name, view[name]]);
-  const where = { ...Object.fromEntries(followed), ...JSON.parse(host.dataset.where ?? "{}") };
+  const where = whereOf(host, view);
   const constant = (/** @type {Column} */ { name }) => name in where
     || (name in view && choices[name].length === 1);
   const wanted = host.dataset.columns ? host.dataset.columns.split(" ").map((name) => table.get(name)) : table.columns;
@@ -223,9 +228,9 @@ function drawTable(host, report, view, choices) {
     return button;
   };
   const foot = element("div", { class: "foot" },
-    offer("Download CSV", "csv", () => download(`${table.name}.csv`, table.csv)),
+    offer("Download CSV", "csv", () => saveCsv(`${table.name}.csv`, table.csv)),
     offer("CSV of what is shown", "csv-shown", () =>
-      download(`${table.name}_shown.csv`, table.csvOf(columns, rows))));
+      saveCsv(`${table.name}_shown.csv`, table.csvOf(columns, rows))));
   const said = [table.note];
   if (!all.length) said.push("No row could be computed for this choice.");
   if (all.length > printed) {

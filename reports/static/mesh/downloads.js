@@ -23,23 +23,3 @@ function trianglesCsv({ m, numbers, sizes, successors, ends }) {
 function countsCsv(header, counts) {
   return [header, ...counts.map((pair) => pair.join(","))].join("\n") + "\n";
 }
-
-/**
- * @param {string} name of the file
- * @param {Blob} content
- */
-function save(name, content) {
-  const link = document.createElement("a");
-  link.download = name;
-  link.href = URL.createObjectURL(content);
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 60_000); // a busy browser reads it late
-}
-
-/**
- * @param {string} name
- * @param {string} text
- */
-function saveCsv(name, text) {
-  save(name, new Blob([text], { type: "text/csv" }));
-}

@@ -112,7 +112,7 @@ class MeshPage {
   /** Save the drawing as it is in view. */
   savePicture() {
     this.painter.picture(this.chosen).toBlob((picture) => {
-      if (picture) save(`${this.name}-lepp.png`, picture);
+      if (picture) saveFile(`${this.name}-lepp.png`, picture);
     });
   }
 
