@@ -27,18 +27,21 @@ def test_shares_of_types_by_hand(study):
     assert by_group["share"].sum().to_numpy() == pytest.approx(1)
 
 
+def geometric(p):
+    """Moments of the geometric law, which in scipy starts at 1; LEPP sizes start at 2."""
+    mean, variance, skewness, kurtosis = map(float, stats.geom(p, loc=1).stats("mvsk"))
+    return {
+        "mean": mean,
+        "standard deviation": variance**0.5,
+        "skewness": skewness,
+        "excess kurtosis": kurtosis,
+    }
+
+
 def test_predicted_moments_are_the_geometric_laws(study):
     frame = study[2]["theorem_1"].frame
     for row in frame.itertuples():
-        # scipy's geometric law starts at 1, LEPP sizes at 2
-        law = stats.geom(row.p_type_c, loc=1)
-        mean, variance, skewness, kurtosis = (float(v) for v in law.stats("mvsk"))
-        expected = {
-            "mean": mean,
-            "standard deviation": variance**0.5,
-            "skewness": skewness,
-            "excess kurtosis": kurtosis,
-        }[row.statistic]
+        expected = geometric(row.p_type_c)[row.statistic]
         assert row.predicted == pytest.approx(expected)
         assert row.relative_difference == pytest.approx(row.measured / expected - 1)
 
@@ -54,14 +57,7 @@ def test_moments_with_p_of_all_steps(study):
     means = frame[frame["statistic"] == "mean"]
     assert means["difference_all_steps"].to_numpy() == pytest.approx(0, abs=1e-12)
     for row in frame.itertuples():
-        law = stats.geom(row.p_all_steps, loc=1)
-        mean, variance, skewness, kurtosis = (float(v) for v in law.stats("mvsk"))
-        expected = {
-            "mean": mean,
-            "standard deviation": variance**0.5,
-            "skewness": skewness,
-            "excess kurtosis": kurtosis,
-        }[row.statistic]
+        expected = geometric(row.p_all_steps)[row.statistic]
         assert row.predicted_all_steps == pytest.approx(expected)
         assert row.difference_all_steps == pytest.approx(row.measured / expected - 1)
 
