@@ -168,13 +168,17 @@ def test_two_workers_one_of_them_killed_leave_the_same_bytes(tmp_path, whole):
 
 
 CLIENT = """
+import signal
 import sys
 from pathlib import Path
 from test_runner import DESIGN, TRIANGULATIONS, Heard, run
 
 class Printing(Heard):
     def advance(self, outcome, size):
+        super().advance(outcome, size)
         print(outcome.task, flush=True)
+        if len(self.tasks) == int(sys.argv[2]):
+            signal.pause()  # never at its end before the signal comes
 
 if __name__ == "__main__":
     run(Path(sys.argv[1]), TRIANGULATIONS, DESIGN, workers=2, listener=Printing())
@@ -187,7 +191,7 @@ def test_a_killed_run_goes_on_and_leaves_no_process(tmp_path, whole, number, aft
     script = tmp_path / "client.py"
     script.write_text(CLIENT)
     process = subprocess.Popen(
-        [sys.executable, str(script), str(tmp_path / "results")],
+        [sys.executable, str(script), str(tmp_path / "results"), str(after)],
         env=os.environ | {"PYTHONPATH": os.pathsep.join([str(Path(__file__).parent), *sys.path])},
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
