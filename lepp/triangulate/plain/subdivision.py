@@ -168,7 +168,7 @@ def subdivide(points, roots, starts, room, lists, n_edges, split, repeats, mesh)
             spans = (first, stop, top_2, top_3)
             if on_side:  # the first part is flat
                 end_1 = first
-                end_2, end_3 = _partition_beside(points, x, y, ident, repeats, spans, p, c)
+                end_2, end_3 = partition_beside(points, x, y, ident, repeats, spans, p, c)
                 edge = across_c >> 1
                 if split[edge] == 0:  # else the triangle on the other side came first
                     split[edge] = n_edges
@@ -178,7 +178,7 @@ def subdivide(points, roots, starts, room, lists, n_edges, split, repeats, mesh)
                 n_edges += 1
                 first_part = 1
             else:
-                end_1, end_2, end_3 = _partition(
+                end_1, end_2, end_3 = partition(
                     points, x, y, ident, repeats, spans, (p, a, b, c),
                     (a_x - p_x, a_y - p_y, b_x - p_x, b_y - p_y, c_x - p_x, c_y - p_y),
                 )  # fmt: skip
@@ -221,7 +221,7 @@ def subdivide(points, roots, starts, room, lists, n_edges, split, repeats, mesh)
 
 
 @inlined
-def _partition(points, x, y, ident, repeats, spans, vertices, arms):
+def partition(points, x, y, ident, repeats, spans, vertices, arms):
     """Partition the points of a triangle (a, b, c) among the three parts that point p makes of it.
 
     Parameters
@@ -275,7 +275,7 @@ def _partition(points, x, y, ident, repeats, spans, vertices, arms):
 
 
 @inlined
-def _partition_beside(points, x, y, ident, repeats, spans, p, c):
+def partition_beside(points, x, y, ident, repeats, spans, p, c):
     """Do the same where p is on the side ab, and the first part is flat.
 
     Returns
