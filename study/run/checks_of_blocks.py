@@ -195,18 +195,18 @@ def plan_checks(total: Histogram) -> Plan:
 
 def _plan_axis(counts: NDArray[np.int64], distribution: str) -> AxisPlan:
     ends = np.cumsum(counts)
-    starts = ends - counts
     n = int(ends[-1])
     low, high = np.searchsorted(ends, middle_ranks(n), side="right").tolist()
     # As in `kolmogorov_distance`, with the edges of a bin for its values: F is at least
     # `at_lower` and at most `at_upper` at each of them, of ranks starts <= i < ends.
-    at_lower, at_upper = _cdf_at_edges(distribution, len(counts) - 1)
     filled = np.flatnonzero(counts)
-    starts, ends, at_lower, at_upper = (a[filled] for a in (starts, ends, at_lower, at_upper))
+    counts, ends = counts[filled], ends[filled]
+    starts = ends - counts
+    at_lower, at_upper = (at[filled] for at in _cdf_at_edges(distribution, _n_bins(n)))
     attained = np.maximum(ends / n - at_upper, at_lower - starts / n).max()
-    bounds = np.maximum(ends / n - at_lower, at_upper - starts / n)
-    held = bounds >= attained
-    return AxisPlan((low, high), filled[held], counts[filled[held]], starts[held])
+    # Where the bound is just attained, the values in the bin are the only ones to tell.
+    held = np.maximum(ends / n - at_lower, at_upper - starts / n) >= attained
+    return AxisPlan((low, high), filled[held], counts[held], starts[held])
 
 
 def extract(points: Points, first: int, plan: Plan) -> Extract:
@@ -282,9 +282,7 @@ def checks_of_blocks(plan: Plan, extracts: Iterable[Extract]) -> PointChecks:
     return PointChecks(runs_p_x=runs_p_x, runs_p_y=runs_p_y, ks_p_x=ks_p_x, ks_p_y=ks_p_y)
 
 
-def _axis_p_values(
-    plan: Plan, axis: AxisPlan, blocks: list[AxisExtract]
-) -> tuple[float, float]:
+def _axis_p_values(plan: Plan, axis: AxisPlan, blocks: list[AxisExtract]) -> tuple[float, float]:
     n = plan.n_points
     values = np.concatenate([block.in_distance_bins for block in blocks])
     if len(values) != axis.counts.sum():

@@ -125,7 +125,7 @@ COORDINATES = (
 )
 
 
-@settings(deadline=None, max_examples=300)
+@settings(deadline=None, max_examples=150)
 @given(
     st.lists(
         st.lists(st.tuples(COORDINATES, COORDINATES), max_size=9), min_size=1, max_size=7
