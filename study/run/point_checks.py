@@ -51,24 +51,64 @@ def check_randomness(points: Points, distribution: str) -> PointChecks:
     # NumPy's sort is vectorised, and both tests live on it: it is most of the cost of the checks.
     x, y = np.ascontiguousarray(points[:, 0]), np.ascontiguousarray(points[:, 1])
     sorted_x, sorted_y = np.sort(x), np.sort(y)
+    n = len(points)
     return PointChecks(
-        runs_p_x=runs_p_value(x, _median(sorted_x)),
-        runs_p_y=runs_p_value(y, _median(sorted_y)),
-        ks_p_x=kolmogorov_p_value(kolmogorov_distance(sorted_x, cdf), len(x)),
-        ks_p_y=kolmogorov_p_value(kolmogorov_distance(sorted_y, cdf), len(y)),
+        runs_p_x=runs_p_value(count_sides(x, median_of_ordered(sorted_x, n))),
+        runs_p_y=runs_p_value(count_sides(y, median_of_ordered(sorted_y, n))),
+        ks_p_x=kolmogorov_p_value(kolmogorov_distance(sorted_x, cdf), n),
+        ks_p_y=kolmogorov_p_value(kolmogorov_distance(sorted_y, cdf), n),
     )
 
 
-def _median(ordered: Values) -> float:
-    n = len(ordered)
-    return float((ordered[(n - 1) // 2] + ordered[n // 2]) / 2)
+def middle_ranks(n: int) -> tuple[int, int]:
+    """Return the ranks, from 0, of the two middle ones of n values: the same rank for odd n."""
+    return (n - 1) // 2, n // 2
 
 
-def runs_p_value(values: Values, median: float) -> float:
-    """Return the p-value of the Wald-Wolfowitz runs test about the median.
+def median_of_ordered(ordered: Values, n: int, n_below: int = 0) -> float:
+    """Return the median of n values.
 
-    Two-sided, by the normal approximation without continuity correction; values equal to the
-    median are left out (as in ``randtests::runs.test`` of R, which the paper used).
+    Parameters
+    ----------
+    ordered : (k,) float64 ndarray
+        Values in ascending order, the middle ones of the n among them.
+    n : int
+        Number of all values.
+    n_below : int
+        How many of those that are not in `ordered` lie below the middle ones; the others of
+        them lie above.
+    """
+    low, high = middle_ranks(n)
+    return float((ordered[low - n_below] + ordered[high - n_below]) / 2)
+
+
+@dataclass(frozen=True)
+class Sides:
+    """On which sides of their median the values of a sequence lie; sequences add up.
+
+    Attributes
+    ----------
+    n_below, n_above : int
+        Numbers of values below and above the median.
+    changes : int
+        How often a value lies on the other side than the one before it, values equal to the
+        median left out: one less than the number of runs.
+    """
+
+    n_below: int
+    n_above: int
+    changes: int
+
+    def __add__(self, other: "Sides") -> "Sides":
+        return Sides(
+            self.n_below + other.n_below,
+            self.n_above + other.n_above,
+            self.changes + other.changes,
+        )
+
+
+def count_sides(values: Values, median: float) -> Sides:
+    """Count on which sides of their median values lie.
 
     Parameters
     ----------
@@ -76,25 +116,38 @@ def runs_p_value(values: Values, median: float) -> float:
         Values in the order of their drawing.
     median : float
         Their median.
+    """
+    above = values > median
+    n_above = int(np.count_nonzero(above))
+    n_below = int(np.count_nonzero(values < median))
+    if n_below + n_above < len(values):
+        above = above[values != median]
+    return Sides(n_below, n_above, count_changes(above))
+
+
+def count_changes(above: NDArray[np.bool_]) -> int:
+    """Return how many entries differ from the one before them."""
+    return int(np.count_nonzero(above[1:] != above[:-1]))
+
+
+def runs_p_value(sides: Sides) -> float:
+    """Return the p-value of the Wald-Wolfowitz runs test about the median.
+
+    Two-sided, by the normal approximation without continuity correction; values equal to the
+    median are left out (as in ``randtests::runs.test`` of R, which the paper used).
 
     Returns
     -------
     p : float
         NaN where fewer than two values lie on a side of the median.
     """
-    above = values > median
-    n_above = int(np.count_nonzero(above))
-    n_below = int(np.count_nonzero(values < median))
-    n = n_above + n_below
-    if n < len(values):
-        above = above[values != median]
-    if n_above < 2 or n_below < 2:
+    if sides.n_above < 2 or sides.n_below < 2:
         return float("nan")
-    runs = 1 + int(np.count_nonzero(above[1:] != above[:-1]))
-    product = 2 * n_above * n_below
+    n = sides.n_below + sides.n_above
+    product = 2 * sides.n_above * sides.n_below
     expected = product / n + 1
     variance = product * (product - n) / (n * n * (n - 1))
-    z = abs(runs - expected) / np.sqrt(variance)
+    z = abs(1 + sides.changes - expected) / np.sqrt(variance)
     return float(2 * ndtr(-z))
 
 
@@ -123,14 +176,33 @@ def kolmogorov_distance(ordered: Values, cdf: Callable[[Values], Values]) -> flo
     ends = np.append(starts[1:], n)
     at_starts = cdf(ordered[starts])
     at_ends = np.append(at_starts[1:], cdf(ordered[-1:]))
-    attained = np.maximum((starts + 1) / n - at_starts, at_starts - starts / n).max()
+    attained = largest_distance(at_starts, starts, n)
     bounds = np.maximum(ends / n - at_starts, at_ends - starts / n)
     open_blocks = starts[bounds > attained]
     inside = (open_blocks[:, None] + np.arange(_STRIDE)).ravel()
     inside = inside[inside < n]
-    at_inside = cdf(ordered[inside])
-    distances = np.maximum((inside + 1) / n - at_inside, at_inside - inside / n)
-    return float(distances.max(initial=attained))
+    return max(attained, largest_distance(cdf(ordered[inside]), inside, n))
+
+
+def largest_distance(at_values: Values, ranks: NDArray[np.int64], n: int) -> float:
+    """Return the largest distance of the empirical distribution function at some values.
+
+    Parameters
+    ----------
+    at_values : (k,) float64 ndarray
+        The true distribution function at these values.
+    ranks : (k,) int64 ndarray
+        Their ranks, from 0, among all n values.
+    n : int
+        Number of all values.
+
+    Returns
+    -------
+    distance : float
+        0 where there are no values.
+    """
+    distances = np.maximum((ranks + 1) / n - at_values, at_values - ranks / n)
+    return float(distances.max(initial=0.0))
 
 
 def kolmogorov_p_value(distance: float, n: int) -> float:

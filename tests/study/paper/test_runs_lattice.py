@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from study.paper import published, runs_lattice
-from study.run.point_checks import runs_p_value
+from study.run.point_checks import count_sides, runs_p_value
 
 
 def sequence(n, runs):
@@ -25,7 +25,7 @@ def test_possible_p_values_are_those_of_our_test(n):
     possible = runs_lattice.possible_p(n, 4)
     for step in (0, 1, 2, 5, 11):
         for runs in (n // 2 + 1 + step, n // 2 + 1 - step):
-            p = f"{runs_p_value(sequence(n, runs), 0.0):.4f}"
+            p = f"{runs_p_value(count_sides(sequence(n, runs), 0.0)):.4f}"
             assert possible[p] == step
 
 
