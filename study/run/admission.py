@@ -95,11 +95,13 @@ class AdmittedWorkers(Workers):
         if silent >= SILENT_SECONDS:
             return f"the scheduler at {self._scheduler}, which does not answer"
         with self._lock:
+            now, largest = self.now, self.largest
             present = {worker["id"]: address for address, worker in self._present.items()}
             refused = {key: why for key, why in self._looked_at.items() if why and key in present}
-            looked_at = len(self._looked_at.keys() & present.keys()) > len(refused)
-        if self.now and not self._used:
-            check_memory(self._kind, self._design, self.largest, "the largest worker has")
+            fit = sum(self._resource in worker["resources"] for worker in self._present.values())
+        looked_at = len(present) > len(refused) + fit
+        if now and not looked_at and not self._used:
+            check_memory(self._kind, self._design, largest, "the largest worker has")
             self._used = True
         if refused and len(refused) == len(present) and not self._used:
             key, why = next(iter(refused.items()))
@@ -108,7 +110,7 @@ class AdmittedWorkers(Workers):
             if why not in self._told:
                 self._told.add(why)
                 self._note(f"The worker {present[key]}, and any like it, gets no tasks: it {why}.")
-        if self.now:
+        if now:
             return None
         if looked_at:
             return f"workers of {self._scheduler} to load the kernels, or to compile them"

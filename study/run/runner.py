@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from math import inf
 from pathlib import Path
 from time import perf_counter, sleep
 from typing import Any, NamedTuple, Protocol, cast
@@ -141,76 +142,109 @@ def compute(
         As they are kept; of failures the last.
     """
     kind, design = store.kind, store.design
-
-    def load_of(task: Any) -> Load:  # noqa: ANN401 - of the kind's own type
-        return Load(kind.size_of(task, design).work, kind.memory_of(task, design).n_bytes)
-
-    unfinished = store.unfinished
-    todo = Size.total(kind.size_of(task, design) for task in unfinished)
+    todo = Size.total(kind.size_of(task, design) for task in store.unfinished)
     whole = Size.total(kind.size_of(task, design) for task in store.tasks)
-    batches = Batches(unfinished, load_of, workers.memory)
-    del unfinished  # there may be a million
-    attempts: Counter[Any] = Counter()
-    # Typed Any because this class of distributed has no annotations.
-    arrivals: Any = cast(Any, as_completed)(
-        loop=workers.client.loop, with_results=True, raise_errors=False
-    )
-
-    def send(batch: Batch) -> None:
-        future = workers.client.submit(
-            perform_batch,
-            batch.tasks,
-            kind,
-            design,
-            pure=False,  # a name of its own, whatever else runs at this scheduler
-            resources=workers.resources(batch.memory),
-        )
-        batches.begin(future, batch)
-        arrivals.add(future)
-
+    course = _Course(workers, store)
     begun = False
     while True:
         missing = workers.look()
-        if (above := workers.stranded_above()) is not None:
-            for future, batch in list(batches.under_way.items()):
-                if batch.memory > above:
-                    batches.end(future)
-                    future.release()
-                    send(batch)
-        while len(batches.under_way) < workers.ahead * max(workers.now, 1):
-            largest = workers.largest if workers.now else float("inf")
-            next_batch = batches.next(workers.now, largest)
-            if next_batch is None:
-                break
-            send(next_batch)
+        course.send()
         if not begun:
             listener.begin(kind.units, todo, whole, workers.now)
             begun = True
-        if not batches.under_way and not batches.n_waiting:
+        if course.ended:
             return
-        arrived = arrivals.next_batch(block=False)
-        for future, result in arrived:
-            if future not in batches.under_way:
-                continue  # it was sent once more
-            final = []
-            done = _done(future, result, batches.end(future).tasks, kind, design)
-            if done.seconds:
-                batches.learn(len(done.outcomes), done.seconds, workers.now)
-            for outcome in done.outcomes:
-                if outcome.error is not None:
-                    attempts[outcome.task] += 1
-                    if attempts[outcome.task] < ATTEMPTS:
-                        batches.again(outcome.task)
-                        continue
-                final.append(outcome)
-            yield from store.add(final)
+        arrived = False
+        for outcomes in course.arrivals():
+            arrived = True
+            yield from store.add(outcomes)
         if workers.client.status != "running":
             raise RunStoppedError(_LOST)
-        if missing is None and (memory := batches.smallest()) > workers.largest:
-            missing = f"a worker that has {in_words(memory)} for one task"
-        waiting.look(None if arrived else missing)
+        waiting.look(None if arrived else missing or course.missing())
         if not arrived:
             sleep(_POLL_SECONDS)
+
+
+class _Course:
+    """The batches of a run on their way to workers and back."""
+
+    def __init__(self, workers: Workers, store: Store) -> None:
+        self._workers, self._kind, self._design = workers, store.kind, store.design
+        self._batches = Batches(store.unfinished, self._load_of, workers.memory)
+        self._attempts: Counter[Any] = Counter()
+        # Typed Any because this class of distributed has no annotations.
+        self._futures: Any = cast(Any, as_completed)(
+            loop=workers.client.loop, with_results=True, raise_errors=False
+        )
+
+    @property
+    def ended(self) -> bool:
+        """Whether nothing is left."""
+        return not self._batches.under_way and not self._batches.n_waiting
+
+    def missing(self) -> str | None:
+        """Say what keeps the rest from being computed by the workers that there are."""
+        memory = self._batches.smallest()
+        if memory <= self._workers.largest:
+            return None
+        return f"a worker that has {in_words(memory)} for one task"
+
+    def send(self) -> None:
+        """Send as many batches as are to be under way, and again those that found no worker."""
+        workers, under_way = self._workers, self._batches.under_way
+        if (above := workers.stranded_above()) is not None:
+            for future, batch in list(under_way.items()):
+                if batch.memory > above:
+                    self._batches.end(future)
+                    future.release()
+                    self._send(batch)
+        largest = workers.largest if workers.now else inf
+        while len(under_way) < workers.ahead * max(workers.now, 1):
+            next_batch = self._batches.next(workers.now, largest)
+            if next_batch is None:
+                return
+            self._send(next_batch)
+
+    def arrivals(self) -> Iterator[list[Outcome]]:
+        """Return what has come back of each batch, without what is tried again."""
+        for future, result in self._futures.next_batch(block=False):
+            if future not in self._batches.under_way:
+                continue  # it was sent once more
+            batch = self._batches.end(future)
+            done = _done(future, result, batch.tasks, self._kind, self._design)
+            if done is None:
+                if self._workers.client.status == "running":
+                    self._send(batch)
+                continue
+            if done.seconds:
+                self._batches.learn(len(batch.tasks), done.seconds, self._workers.now)
+            yield [outcome for outcome in done.outcomes if not self._again(outcome)]
+
+    def _again(self, outcome: Outcome) -> bool:
+        """Have a task that has failed tried again, if it was not often enough."""
+        if outcome.error is None:
+            return False
+        self._attempts[outcome.task] += 1
+        if self._attempts[outcome.task] >= ATTEMPTS:
+            return False
+        self._batches.again(outcome.task)
+        return True
+
+    def _send(self, batch: Batch) -> None:
+        future = self._workers.client.submit(
+            perform_batch,
+            batch.tasks,
+            self._kind,
+            self._design,
+            pure=False,  # a name of its own, whatever else runs at this scheduler
+            resources=self._workers.resources(batch.memory),
+        )
+        self._batches.begin(future, batch)
+        self._futures.add(future)
+
+    def _load_of(self, task: Any) -> Load:  # noqa: ANN401 - of the kind's own type
+        memory = self._kind.memory_of(task, self._design).n_bytes
+        return Load(self._kind.size_of(task, self._design).work, memory)
 
 
 class Done(NamedTuple):
@@ -248,13 +282,14 @@ def _done(
     tasks: Sequence[Any],
     kind: Kind,
     design: Any,  # noqa: ANN401 - of the kind's own type
-) -> Done:
+) -> Done | None:
+    """Return what a batch gave; None if its worker left with it, or the scheduler was lost."""
     if future.status == "finished":
         return cast(Done, result)
     if future.status == "error":
         _, error, _ = cast(tuple[type, BaseException, object], result)
         return Done([kind.failed(task, design, _in_words(error)) for task in tasks], 0.0)
-    raise RunStoppedError(_LOST)
+    return None
 
 
 def _in_words(error: BaseException) -> str:

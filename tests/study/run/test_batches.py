@@ -36,7 +36,7 @@ def test_batches_hold_every_task_once_the_largest_first_and_take_about_a_second(
     assert [t.n_points for t in flat] == sorted((t.n_points for t in tasks), reverse=True)
     times = [sum(map(seconds, batch.tasks)) for batch in taken]
     assert len(taken[0].tasks) == 1
-    assert max(times) <= BATCH_SECONDS
+    assert max(times) < 1.1 * BATCH_SECONDS
     assert 0.5 < sum(times[5:-20]) / len(times[5:-20]) <= BATCH_SECONDS
     assert max(times[-4:]) < BATCH_SECONDS / 4
 
