@@ -135,6 +135,11 @@ def main() -> None:
     is_flag=True,
     help="Serve Dask's dashboard of the workers on this computer, and print its address.",
 )
+@click.option(
+    "--repair",
+    is_flag=True,
+    help="Compute again what is damaged or missing in DIRECTORY.",
+)
 def run(
     directory: Path | None,
     preset: str | None,
@@ -145,6 +150,7 @@ def run(
     scheduler_file: Path | None,
     wait: float,
     dashboard: bool,
+    repair: bool,
 ) -> None:
     """Run a study into DIRECTORY and write its report.
 
@@ -159,7 +165,7 @@ def run(
 
     options = ClusterOptions(workers, scheduler, scheduler_file, wait, dashboard)
     with progress() as listener, stop_once():
-        summary = _run(directory, kind, design, options, listener)
+        summary = _run(directory, kind, design, options, listener, repair=repair)
     computed = perf_counter()
     path = _write_report(directory)
     _print_summary(summary, computed - start, perf_counter() - computed)
@@ -261,11 +267,15 @@ def _run(
     design: Any,  # noqa: ANN401 - of the kind's own type
     options: ClusterOptions,
     listener: Listener,
+    *,
+    repair: bool,
 ) -> Summary:
     from study.run.runner import run as run_design
 
     try:
-        return run_design(directory, kind, design, options=options, listener=listener)
+        return run_design(
+            directory, kind, design, options=options, listener=listener, repair=repair
+        )
     except KeyboardInterrupt:
         click.echo(
             f"\nStopped. What is finished is kept in {directory}; the same command goes on from "

@@ -43,33 +43,80 @@ def _plan(units: tuple[str, str], unfinished: Size, whole: Size) -> str:
     return f"{unfinished.parts:,} {parts} to compute, {unfinished.work:,} {work}{goes_on}"
 
 
-class Prospect:
-    """Says once how long a long run takes, and how long with more workers.
+class Pace:
+    """How fast a run computes, from the first result on: what was before it is no work.
 
     Parameters
     ----------
     work : int
         What there is to do.
-    n_threads : int
-        Tasks at a time.
     clock : callable
         Seconds.
+
+    Attributes
+    ----------
+    done : int
+        What is done.
     """
 
-    def __init__(self, work: int, n_threads: int, clock: Callable[[], float] = monotonic) -> None:
-        self._work, self._n_threads, self._clock = work, n_threads, clock
-        self._start = clock()
-        self._done = 0
+    def __init__(self, work: int, clock: Callable[[], float] = monotonic) -> None:
+        self.work, self.done = work, 0
+        self._clock = clock
+        self._start = self._first = self._last = clock()
+        self._first_done = 0
+
+    def advance(self, work: int) -> None:
+        """Hear of work that is done."""
+        now = self._clock()
+        self.done += work
+        if now - self._first < _AT_ONCE or not self._first_done:
+            self._first_done = self.done
+            if not self._first_done - work:
+                self._first = now
+        self._last = now
+
+    @property
+    def seconds(self) -> float:
+        """Since the start."""
+        return self._clock() - self._start
+
+    @property
+    def rate(self) -> float | None:
+        """Work a second; None as long as it is not known."""
+        passed = self._last - self._first
+        return (self.done - self._first_done) / passed if self.done > self._first_done else None
+
+    @property
+    def left(self) -> float | None:
+        """Seconds that the rest takes at this rate."""
+        return (self.work - self.done) / self.rate if self.rate else None
+
+    def __str__(self) -> str:
+        return ""
+
+
+class Prospect:
+    """Says once how long a long run takes, and how long with more workers.
+
+    Parameters
+    ----------
+    pace : Pace
+        Of the run.
+    n_threads : int
+        Tasks at a time.
+    """
+
+    def __init__(self, pace: Pace, n_threads: int) -> None:
+        self._pace, self._n_threads = pace, n_threads
         self._told = False
 
-    def after(self, work: int) -> str | None:
-        """Return the sentence, after more work was done; None if it is not time for it."""
-        self._done += work
-        seconds = self._clock() - self._start
-        if self._told or self._done < _KNOWN_SHARE * self._work or seconds < _KNOWN_SECONDS:
+    def sentence(self) -> str | None:
+        """Return the sentence; None if it is not time for it."""
+        pace = self._pace
+        known = pace.done >= _KNOWN_SHARE * pace.work and pace.seconds >= _KNOWN_SECONDS
+        if self._told or not known or (left := pace.left) is None:
             return None
         self._told = True
-        left = seconds * (self._work - self._done) / self._done
         if left < _LONG_SECONDS or not self._n_threads:
             return None
         more = _CLUSTER * self._n_threads

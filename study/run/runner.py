@@ -78,6 +78,7 @@ def run(
     *,
     options: ClusterOptions,
     listener: Listener,
+    repair: bool = False,
 ) -> Summary:
     """Compute what a results directory lacks of a design.
 
@@ -93,6 +94,8 @@ def run(
         Where.
     listener : Listener
         Hears of the progress.
+    repair : bool
+        Whether what is damaged or missing in the directory is to be computed again.
 
     Raises
     ------
@@ -104,7 +107,7 @@ def run(
     computed, kernel_seconds, n_threads = Size(0, 0), 0.0, 0
     if not directory.exists():  # nothing is left of a run that could not begin
         check_request(kind, design, options)
-    with Store(directory, kind, design, listener.note) as store:
+    with Store(directory, kind, design, listener.note, repair=repair) as store:
         if store.unfinished:
             with connect(kind, design, options, listener.note) as workers:
                 waiting = options.waiting(listener.note)
