@@ -14,13 +14,38 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from reports.cli.signals import exit_code, stop_once
+
 if TYPE_CHECKING:
+    from study.run.cluster import ClusterOptions
     from study.run.kinds import Kind
     from study.run.runner import Listener, Summary
 
 EXIT_BAD_INPUT = 2
 EXIT_FAILED_TASKS = 3
-EXIT_INTERRUPTED = 130
+
+
+class Duration(click.ParamType):
+    """A time such as 90s, 30min or 2h, as seconds."""
+
+    name = "duration"
+
+    def convert(
+        self,
+        value: Any,  # noqa: ANN401 - as click declares it
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> float:
+        """Return the seconds."""
+        from dask.utils import parse_timedelta
+
+        try:
+            seconds = float(parse_timedelta(value))
+        except (ValueError, KeyError):
+            seconds = -1.0
+        if seconds < 0:
+            self.fail(f"{value!r} is no time: write it as 90s, 30min or 2h.", param, ctx)
+        return seconds
 
 
 class Commands(click.Group):
@@ -32,7 +57,7 @@ class Commands(click.Group):
             return super().invoke(ctx)
         except KeyboardInterrupt:
             click.echo("Stopped.", err=True)
-            ctx.exit(EXIT_INTERRUPTED)
+            ctx.exit(exit_code())
         except OSError as error:
             if error.errno not in (errno.ENOSPC, errno.EDQUOT):
                 raise
@@ -88,7 +113,32 @@ def main() -> None:
 @click.option(
     "--scheduler",
     metavar="ADDRESS",
-    help="Run on the Dask cluster of this scheduler, such as tcp://10.0.0.1:8786.",
+    help="Run on the Dask cluster of this scheduler, such as tcp://10.0.0.1:8786; the one that "
+    "DASK_SCHEDULER_ADDRESS names if neither this nor --workers is given.",
+)
+@click.option(
+    "--scheduler-file",
+    metavar="FILE",
+    type=click.Path(path_type=Path),
+    help="The same, for the file that dask scheduler --scheduler-file has written.",
+)
+@click.option(
+    "--wait",
+    metavar="DURATION",
+    type=Duration(),
+    default="1h",
+    show_default=True,
+    help="How long to wait at most while that cluster has no workers, such as 90s, 30min or 2h.",
+)
+@click.option(
+    "--dashboard",
+    is_flag=True,
+    help="Serve Dask's dashboard of the workers on this computer, and print its address.",
+)
+@click.option(
+    "--repair",
+    is_flag=True,
+    help="Compute again what is damaged or missing in DIRECTORY.",
 )
 def run(
     directory: Path | None,
@@ -97,19 +147,25 @@ def run(
     seed: int | None,
     workers: int | None,
     scheduler: str | None,
+    scheduler_file: Path | None,
+    wait: float,
+    dashboard: bool,
+    repair: bool,
 ) -> None:
     """Run a study into DIRECTORY and write its report.
 
     DIRECTORY is results/NAME if not given. A run that was cut short goes on where it stopped, and
-    tasks that failed are tried again. The exit code is 0 if every task succeeded, 2 for bad input,
-    3 if tasks failed, and 130 after Ctrl-C.
+    tasks that failed are tried again. The exit code is 0 if every task succeeded, 2 for bad input
+    or a cluster that was lost, 3 if tasks failed, 130 after Ctrl-C and 143 after SIGTERM.
     """
     start = perf_counter()
     kind, design, directory = _choose(directory, preset, config, seed)
     from reports.cli.progress import progress
+    from study.run.cluster import ClusterOptions
 
-    with progress() as listener:
-        summary = _run(directory, kind, design, workers, scheduler, listener)
+    options = ClusterOptions(workers, scheduler, scheduler_file, wait, dashboard)
+    with progress() as listener, stop_once():
+        summary = _run(directory, kind, design, options, listener, repair=repair)
     computed = perf_counter()
     path = _write_report(directory)
     _print_summary(summary, computed - start, perf_counter() - computed)
@@ -123,6 +179,24 @@ def run(
 def report(directory: Path) -> None:
     """Write the report of the results in DIRECTORY again."""
     click.echo(f"Report: {_write_report(directory)}")
+
+
+@main.command("compile")
+def compile_kernels() -> None:
+    """Compile all kernels now, for an image or before many workers start."""
+    import lepp
+    from lepp.jit.cache import cache_directory
+
+    lepp.compile_kernels()
+    directory = cache_directory()
+    if directory is None:
+        from lepp import InputError
+
+        raise InputError(
+            "There is no directory to keep compiled kernels in, so every process compiles its "
+            "own: set NUMBA_CACHE_DIR to one that you can write to."
+        )
+    click.echo(f"The kernels are kept in {directory}")
 
 
 @main.command()
@@ -191,15 +265,16 @@ def _run(
     directory: Path,
     kind: Kind,
     design: Any,  # noqa: ANN401 - of the kind's own type
-    workers: int | None,
-    scheduler: str | None,
+    options: ClusterOptions,
     listener: Listener,
+    *,
+    repair: bool,
 ) -> Summary:
     from study.run.runner import run as run_design
 
     try:
         return run_design(
-            directory, kind, design, workers=workers, scheduler=scheduler, listener=listener
+            directory, kind, design, options=options, listener=listener, repair=repair
         )
     except KeyboardInterrupt:
         click.echo(
@@ -207,7 +282,7 @@ def _run(
             "there.",
             err=True,
         )
-        raise SystemExit(EXIT_INTERRUPTED) from None
+        raise SystemExit(exit_code()) from None
 
 
 def _write_report(directory: Path) -> Path:

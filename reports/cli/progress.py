@@ -25,6 +25,8 @@ _LINE_SECONDS = 30.0
 
 #: The share of the work, and the seconds, from which on the rest can be told.
 _KNOWN_SHARE, _KNOWN_SECONDS = 0.03, 20.0
+#: Results of several workers that come together.
+_SOON_SECONDS = 1.0
 #: A run of which more is left is a long one.
 _LONG_SECONDS = 300.0
 #: How many times the workers a cluster is said to have.
@@ -43,33 +45,79 @@ def _plan(units: tuple[str, str], unfinished: Size, whole: Size) -> str:
     return f"{unfinished.parts:,} {parts} to compute, {unfinished.work:,} {work}{goes_on}"
 
 
-class Prospect:
-    """Says once how long a long run takes, and how long with more workers.
+class Pace:
+    """How fast a run computes, from the first result on: what was before it is no work.
 
     Parameters
     ----------
     work : int
         What there is to do.
-    n_threads : int
-        Tasks at a time.
     clock : callable
         Seconds.
+
+    Attributes
+    ----------
+    done : int
+        What is done.
     """
 
-    def __init__(self, work: int, n_threads: int, clock: Callable[[], float] = monotonic) -> None:
-        self._work, self._n_threads, self._clock = work, n_threads, clock
-        self._start = clock()
-        self._done = 0
+    def __init__(self, work: int, clock: Callable[[], float] = monotonic) -> None:
+        self.work, self.done = work, 0
+        self._clock = clock
+        self._start = self._last = clock()
+        #: When the first result came, and what came with it or soon after, from other workers.
+        self._first: float | None = None
+        self._with_first = 0
+
+    def advance(self, work: int) -> None:
+        """Hear of work that is done."""
+        self._last = self._clock()
+        self.done += work
+        if self._first is None:
+            self._first = self._last
+        if self._last - self._first < _SOON_SECONDS:
+            self._with_first = self.done
+
+    @property
+    def seconds(self) -> float:
+        """Since the start."""
+        return self._clock() - self._start
+
+    @property
+    def rate(self) -> float | None:
+        """Work a second; None as long as it is not known."""
+        if self._first is None or self.done == self._with_first:
+            return None
+        return (self.done - self._with_first) / (self._last - self._first)
+
+    @property
+    def left(self) -> float | None:
+        """Seconds that the rest takes at this rate."""
+        return None if self.rate is None else (self.work - self.done) / self.rate
+
+
+class Prospect:
+    """Says once how long a long run takes, and how long with more workers.
+
+    Parameters
+    ----------
+    pace : Pace
+        Of the run.
+    n_threads : int
+        Tasks at a time.
+    """
+
+    def __init__(self, pace: Pace, n_threads: int) -> None:
+        self._pace, self._n_threads = pace, n_threads
         self._told = False
 
-    def after(self, work: int) -> str | None:
-        """Return the sentence, after more work was done; None if it is not time for it."""
-        self._done += work
-        seconds = self._clock() - self._start
-        if self._told or self._done < _KNOWN_SHARE * self._work or seconds < _KNOWN_SECONDS:
+    def sentence(self) -> str | None:
+        """Return the sentence; None if it is not time for it."""
+        pace = self._pace
+        known = pace.done >= _KNOWN_SHARE * pace.work and pace.seconds >= _KNOWN_SECONDS
+        if self._told or not known or (left := pace.left) is None:
             return None
         self._told = True
-        left = seconds * (self._work - self._done) / self._done
         if left < _LONG_SECONDS or not self._n_threads:
             return None
         more = _CLUSTER * self._n_threads
@@ -86,17 +134,17 @@ def _minutes(seconds: float) -> str:
 
 
 class _Rate(ProgressColumn):
-    """Work per second since the start, and the time that the rest takes at this rate.
+    """Work per second, and the time that the rest takes at this rate.
 
     Tasks arrive many at a time: the rate between arrivals, which rich would show, means nothing.
     """
 
     def render(self, task: Bar) -> Text:
-        if not task.completed or not task.elapsed:
+        pace: Pace = task.fields["pace"]
+        if pace.rate is None or pace.left is None:
             return Text("")
-        rate = task.completed / (task.finished_time or task.elapsed)
-        left = timedelta(seconds=round((task.remaining or 0) / rate))
-        return Text(f"{rate / 1e6:.2f} million {task.fields['work']}/s, {left} left")
+        left = timedelta(seconds=round(pace.left))
+        return Text(f"{pace.rate / 1e6:.2f} million {task.fields['work']}/s, {left} left")
 
 
 class TerminalProgress:
@@ -108,16 +156,20 @@ class TerminalProgress:
 
     def begin(self, units: tuple[str, str], unfinished: Size, whole: Size, n_threads: int) -> None:
         """Start the bar."""
-        self._prospect = Prospect(unfinished.work, n_threads)
+        self._pace = Pace(unfinished.work)
+        self._prospect = Prospect(self._pace, n_threads)
         self._bars.console.print(_plan(units, unfinished, whole), highlight=False)
-        self._bar = self._bars.add_task("Computing", total=unfinished.work, work=units[1])
+        self._bar = self._bars.add_task(
+            "Computing", total=unfinished.work, work=units[1], pace=self._pace
+        )
         _load_report()
 
     def advance(self, outcome: Outcome, size: Size) -> None:
         """Move the bar by the work of a task."""
         assert self._bar is not None, "begin comes first"
-        self._bars.advance(self._bar, size.work)
-        if sentence := self._prospect.after(size.work):
+        self._pace.advance(size.work)
+        self._bars.update(self._bar, completed=self._pace.done)
+        if sentence := self._prospect.sentence():
             self.note(sentence)
 
     def note(self, sentence: str) -> None:
@@ -130,27 +182,27 @@ class PlainProgress:
 
     def begin(self, units: tuple[str, str], unfinished: Size, whole: Size, n_threads: int) -> None:
         """Print the first line."""
-        self._prospect = Prospect(unfinished.work, n_threads)
-        self._total, self._work = unfinished.work, units[1]
-        self._done = self._printed = 0
-        self._start = self._last = monotonic()
+        self._pace = Pace(unfinished.work)
+        self._prospect = Prospect(self._pace, n_threads)
+        self._work = units[1]
+        self._printed, self._last = 0, monotonic()
         click.echo(_plan(units, unfinished, whole))
         _load_report()
 
     def advance(self, outcome: Outcome, size: Size) -> None:
         """Count the work of a task; print a line if it is time."""
-        self._done += size.work
-        if sentence := self._prospect.after(size.work):
+        pace = self._pace
+        pace.advance(size.work)
+        if sentence := self._prospect.sentence():
             self.note(sentence)
         now = monotonic()
-        share = (self._done - self._printed) / self._total
-        if self._done < self._total and (share >= _LINE_SHARE or now - self._last >= _LINE_SECONDS):
-            self._printed, self._last = self._done, now
-            rate = self._done / max(now - self._start, 1e-9)
-            click.echo(
-                f"{self._done / self._total:.0%}, {rate / 1e6:.2f} million {self._work}/s, "
-                f"{(self._total - self._done) / rate:.0f} s left"
-            )
+        share = (pace.done - self._printed) / pace.work
+        if pace.done < pace.work and (share >= _LINE_SHARE or now - self._last >= _LINE_SECONDS):
+            self._printed, self._last = pace.done, now
+            line = f"{pace.done / pace.work:.0%}"
+            if pace.rate is not None:
+                line += f", {pace.rate / 1e6:.2f} million {self._work}/s, {pace.left:.0f} s left"
+            click.echo(line)
 
     def note(self, sentence: str) -> None:
         """Print a sentence."""

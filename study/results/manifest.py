@@ -1,5 +1,6 @@
 """The manifest of a results directory: its design, its environment, and whether it is complete."""
 
+import hashlib
 import json
 import platform
 from dataclasses import dataclass
@@ -8,10 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from lepp import InputError
+from study.results.files import write_text
 from study.run.kinds import Kind
 from study.run.registry import KINDS
 
-FORMAT = 3
+FORMAT = 4
 MANIFEST = "manifest.json"
 
 #: Packages whose versions can change a number, or a byte, of the results or the report.
@@ -67,6 +69,18 @@ def environment() -> dict[str, Any]:
     }
 
 
+def checksum(content: dict[str, Any]) -> str:
+    """Return the checksum of what a manifest says, the design among it."""
+    rest = {name: value for name, value in content.items() if name != "checksum"}
+    return hashlib.sha256(json.dumps(rest, sort_keys=True).encode()).hexdigest()
+
+
+def write_manifest(directory: Path, content: dict[str, Any]) -> None:
+    """Write the manifest of a results directory, with its checksum."""
+    content = content | {"checksum": checksum(content)}
+    write_text(directory / MANIFEST, json.dumps(content, indent=2) + "\n")
+
+
 def read_manifest(directory: Path) -> Manifest:
     """Read the manifest of a results directory.
 
@@ -81,11 +95,8 @@ def read_manifest(directory: Path) -> Manifest:
         content = json.loads(text)
         form = content["format"]
         if form == FORMAT:
-            needed = {"complete", "tasks", "environments"}
-            if content["complete"]:
-                needed |= {"failed", "sha256"}
-            if not needed <= content.keys():
-                raise KeyError(needed)
+            if content["checksum"] != checksum(content):
+                raise ValueError(content["checksum"])
             kind = _kind(path, content["kind"])
             design = kind.design.from_settings(content["design"], f"{path}: the design")
             return Manifest(content, kind, design, text)

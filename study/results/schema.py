@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pyarrow as pa
+from numpy.typing import NDArray
 
 from study.run.kinds import ERROR, WORKER, Cells, Kind, Outcome
 
@@ -105,13 +106,23 @@ def _table(name: str, schema: pa.Schema, outcomes: Sequence[Outcome]) -> pa.Tabl
     return pa.table(arrays, schema=schema)
 
 
-def _ordered(table: pa.Table, order: Mapping[str, Sequence[object]]) -> pa.Table:
-    """Order rows by the columns that come before the tasks, and else leave them as they are."""
-    ranks = []
+def ranks_of(table: pa.Table, order: Mapping[str, Sequence[object]]) -> NDArray[np.int64]:
+    """Return the place of each row by the columns that come before the tasks.
+
+    Returns
+    -------
+    ndarray of int64
+        Equal for rows that only their tasks order.
+    """
+    ranks = np.zeros(len(table), np.int64)
     for name, values in order.items():
         if name in table.schema.names:
-            rank = {value: place for place, value in enumerate(values)}
-            ranks.append([rank[cell] for cell in table[name].to_pylist()])
-    if not ranks:
-        return table
-    return table.take(pa.array(np.lexsort(ranks[::-1]))).combine_chunks()
+            place = {value: rank for rank, value in enumerate(values)}
+            ranks = ranks * len(place) + np.array([place[c] for c in table[name].to_pylist()], int)
+    return ranks
+
+
+def _ordered(table: pa.Table, order: Mapping[str, Sequence[object]]) -> pa.Table:
+    """Order rows by the columns that come before the tasks, and else leave them as they are."""
+    ranks = ranks_of(table, order)
+    return table.take(pa.array(np.argsort(ranks, kind="stable"))).combine_chunks()

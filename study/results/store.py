@@ -7,11 +7,8 @@ again). Whole files only ever appear by renaming. So at any moment either the ma
 and the Parquet files are the truth, or it is not and the journal is.
 """
 
-import errno
 import hashlib
-import json
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
@@ -19,23 +16,24 @@ from typing import Any, Self
 import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
-from filelock import FileLock, Timeout
 
 from lepp import InputError
-from study.results.files import leftovers, replacing, write_text
-from study.results.journal import Journal, journal_text, read_journal
-from study.results.manifest import FORMAT, MANIFEST, Manifest, environment, read_manifest
+from study.results.directory import check_ours, locked, writing
+from study.results.files import leftovers
+from study.results.journal import Journal, outcomes_at, read_journal, write_journal
+from study.results.manifest import (
+    FORMAT,
+    MANIFEST,
+    Manifest,
+    environment,
+    read_manifest,
+    write_manifest,
+)
 from study.results.schema import frame_of, outcomes_of, tables_of
-from study.run.kinds import Kind, Outcome
+from study.results.tables import write_tables
+from study.run.kinds import Kind, Outcome, ResultTable
 
 JOURNAL = "journal.jsonl"
-LOCK = ".lock"
-
-#: What file managers leave wherever they have been.
-_NOBODYS = {".DS_Store", "Thumbs.db", "desktop.ini"}
-
-#: What file systems without locks say to a request for one.
-_NO_LOCKS = {errno.ENOSYS, errno.ENOLCK, errno.ENOTSUP, errno.EOPNOTSUPP}
 
 
 @dataclass(frozen=True)
@@ -117,6 +115,8 @@ class Store:
         The design of the run.
     note : callable, optional
         Takes a sentence about something out of the ordinary.
+    repair : bool
+        Whether what is damaged or missing is to be computed again.
 
     Raises
     ------
@@ -131,23 +131,27 @@ class Store:
         kind: Kind,
         design: Any,  # noqa: ANN401 - of the kind's own type
         note: Callable[[str], None] = lambda sentence: None,
+        *,
+        repair: bool = False,
     ) -> None:
         self.directory = directory
         self.kind = kind
         self.design = design
         self.tasks = kind.tasks_of(design)
-        self._outcomes: dict[Any, Outcome] = {}
+        #: Where in the journal each outcome begins; they may be too many to hold.
+        self._places: dict[Any, int] = {}
+        self._failed: dict[Any, Outcome] = {}
         self._environments = [environment()]
         #: Open while there are tasks to run.
         self._journal: Journal | None = None
-        with _writing(directory):
+        with writing(directory):
             if directory.exists():
-                _check_ours(directory)
+                check_ours(directory)
             directory.mkdir(parents=True, exist_ok=True)
-            self._lock = _locked(directory, note)
+            self._lock = locked(directory, note)
         try:
-            with _writing(directory):
-                self._open()
+            with writing(directory):
+                self._open(note, repair=repair)
         except BaseException:
             self.close()
             raise
@@ -162,14 +166,14 @@ class Store:
         """Let go of the directory; what was added stays in it."""
         try:
             if self._journal is not None:
-                with _writing(self.directory):
+                with writing(self.directory):
                     self._journal.close()
                 self._journal = None
         finally:
             # The file stays: removing it would let two runs hold two locks.
             self._lock.release()
 
-    def _open(self) -> None:
+    def _open(self, note: Callable[[str], None], *, repair: bool) -> None:
         for name in (MANIFEST, JOURNAL, *map(_file, self.kind.tables)):
             for leftover in leftovers(self.directory / name):
                 leftover.unlink()
@@ -182,21 +186,47 @@ class Store:
             complete = manifest.complete
         journal = self.directory / JOURNAL
         if complete:
-            tables = _read_tables(self.directory, manifest)
-            if manifest.content["failed"] == 0:
-                journal.unlink(missing_ok=True)
-                return
-            self._outcomes = outcomes_of(self.kind, tables)
-        in_journal = _read_journal(self.directory, self.kind, set(self.tasks))
-        for task, outcome in in_journal.items():
-            known = self._outcomes.get(task)
-            if outcome.error is None or known is None or known.error is not None:
-                self._outcomes[task] = outcome
-        # From the next manifest on, the journal is the truth: it must hold all.
-        if any(in_journal.get(task) is not outcome for task, outcome in self._outcomes.items()):
-            write_text(journal, journal_text(self._outcomes.values()))
+            try:
+                _check_files(self.directory, manifest.content["sha256"])
+            except InputError as error:
+                if not repair:
+                    raise
+                note(f"{error} Its study is computed again.")
+                complete = False
+        if complete and manifest.content["failed"] == 0:
+            journal.unlink(missing_ok=True)
+            return
+        self._read_journal(note if repair else None)
+        if complete and len(self._places) < len(self.tasks):
+            # From the next manifest on, the journal is the truth: it must hold all.
+            outcomes = outcomes_of(self.kind, _read_tables(self.directory, manifest))
+            outcomes |= _outcomes_in(self.directory, self.kind, set(self.tasks))
+            write_journal(journal, outcomes.values())
+            self._read_journal(None)
         self._write_manifest(complete=False)
         self._journal = Journal(journal)
+
+    def _read_journal(self, note: Callable[[str], None] | None) -> None:
+        """Learn what the journal holds; with a note, its damaged lines are left out for good."""
+        journal = self.directory / JOURNAL
+        if not journal.exists():
+            return
+        damaged: list[str] = []
+        hear = None if note is None else damaged.append
+        for place, outcome in _kept(journal, self.kind, set(self.tasks), hear):
+            self._keep(outcome, place)
+        if damaged and note is not None:
+            note(f"{len(damaged):,} damaged lines of {journal} are left out and computed again.")
+            write_journal(journal, outcomes_at(journal, self.kind, self._places.values()))
+            self._places, self._failed = {}, {}
+            self._read_journal(None)
+
+    def _keep(self, outcome: Outcome, place: int) -> None:
+        self._places[outcome.task] = place
+        if outcome.error is not None:
+            self._failed[outcome.task] = outcome
+        else:
+            self._failed.pop(outcome.task, None)
 
     def _check_same(self, manifest: Manifest) -> None:
         """Refuse to write where the results of another study are."""
@@ -222,11 +252,10 @@ class Store:
         """The tasks that have no outcome yet or have failed, in the order of the results."""
         if self._journal is None:
             return []
-        return [
-            task
-            for task in self.tasks
-            if task not in self._outcomes or self._outcomes[task].error is not None
-        ]
+        return [task for task in self.tasks if not self._succeeded(task)]
+
+    def _succeeded(self, task: Any) -> bool:  # noqa: ANN401 - of the kind's own type
+        return task in self._places and task not in self._failed
 
     def add(self, outcomes: Iterable[Outcome]) -> list[Outcome]:
         """Keep outcomes; they are in the journal when this returns.
@@ -242,36 +271,38 @@ class Store:
             Those that were kept.
         """
         assert self._journal is not None, "a finished store takes no outcomes"
-        new = []
+        new: dict[Any, Outcome] = {}
         for outcome in outcomes:
-            known = self._outcomes.get(outcome.task)
-            if known is None or known.error is not None:
-                self._outcomes[outcome.task] = outcome
-                new.append(outcome)
-        with _writing(self.directory):
-            self._journal.append(new)
-        return new
+            known = new.get(outcome.task)
+            if not self._succeeded(outcome.task) and (known is None or known.error is not None):
+                new[outcome.task] = outcome
+        with writing(self.directory):
+            places = self._journal.append(new.values())
+        for outcome, place in zip(new.values(), places, strict=True):
+            self._keep(outcome, place)
+        return list(new.values())
 
     def finish(self) -> None:
         """Write the result files of a run whose tasks all have an outcome."""
         if self._journal is None:
             return
-        outcomes = [self._outcomes[task] for task in self.tasks]
-        with _writing(self.directory):
-            for name, table in tables_of(self.kind, self.design, outcomes).items():
-                with replacing(self.directory / _file(name)) as path:
-                    pq.write_table(table, path, compression="zstd")
+        places = [self._places[task] for task in self.tasks]
+        outcomes = outcomes_at(self.directory / JOURNAL, self.kind, places)
+        paths = {name: self.directory / _file(name) for name in self.kind.tables}
+        with writing(self.directory):
+            write_tables(self.kind, self.design, outcomes, paths)
             self._write_manifest(complete=True)
             self._journal.close()
             self._journal = None
-            if not self.failures:
+            if not self._failed:
                 (self.directory / JOURNAL).unlink()
 
     @property
     def failures(self) -> list[Outcome]:
         """The outcomes of the tasks that failed, in the order of the results."""
-        known = (self._outcomes.get(task) for task in self.tasks)
-        return [outcome for outcome in known if outcome is not None and outcome.error is not None]
+        if not self._failed:
+            return []
+        return [self._failed[task] for task in self.tasks if task in self._failed]
 
     def _write_manifest(self, *, complete: bool) -> None:
         manifest: dict[str, Any] = {
@@ -282,95 +313,71 @@ class Store:
             "design": self.design.model_dump(mode="json"),
         }
         if complete:
-            manifest["failed"] = len(self.failures)
+            manifest["failed"] = len(self._failed)
             manifest["sha256"] = {
                 _file(name): _sha256(self.directory / _file(name))
                 for name, table in self.kind.tables.items()
                 if table.reproducible
             }
         manifest["environments"] = self._environments
-        write_text(self.directory / MANIFEST, json.dumps(manifest, indent=2) + "\n")
+        write_manifest(self.directory, manifest)
 
 
 def _file(table: str) -> str:
     return f"{table}.parquet"
 
 
-def _locked(directory: Path, note: Callable[[str], None]) -> FileLock:
-    """Keep every other run out of a directory until the lock is released or its holder dies."""
-    # No file that only means to be a lock: it would outlive a run that is killed.
-    lock = FileLock(directory / LOCK, blocking=False, thread_local=False, fallback_to_soft=False)
-    try:
-        lock.acquire()
-    except Timeout:
-        raise InputError(
-            f"Another run is writing into {directory}: wait for its end, or give another directory."
-        ) from None
-    except OSError as error:
-        if error.errno not in _NO_LOCKS:
-            raise
-        note(
-            f"The file system of {directory} has no locks: see to it that no other run writes "
-            "there meanwhile."
-        )
-    return lock
-
-
-def _check_ours(directory: Path) -> None:
-    """Refuse a directory with files in it that no run has left there."""
-    if not directory.is_dir():
-        raise InputError(f"{directory} is a file: give a directory for the results.")
-    names = {path.name for path in directory.iterdir()}
-    # A run that is killed before it has written its manifest leaves these.
-    ours = {LOCK, *(path.name for path in leftovers(directory / MANIFEST))}
-    if MANIFEST not in names and names - ours - _NOBODYS:
-        raise InputError(
-            f"{directory} is not empty and holds no results of lepp-study: give another directory."
-        )
-
-
 def _read_tables(directory: Path, manifest: Manifest) -> dict[str, pa.Table]:
     if manifest.complete:
         _check_files(directory, manifest.content["sha256"])
         return {
-            name: _read_parquet(directory / _file(name), table.schema)
+            name: _read_parquet(directory / _file(name), table)
             for name, table in manifest.kind.tables.items()
         }
     tasks = manifest.kind.tasks_of(manifest.design)
-    outcomes = _read_journal(directory, manifest.kind, set(tasks))
+    outcomes = _outcomes_in(directory, manifest.kind, set(tasks))
     in_order = [outcomes[task] for task in tasks if task in outcomes]
     return tables_of(manifest.kind, manifest.design, in_order)
 
 
-def _read_journal(directory: Path, kind: Kind, tasks: set[Any]) -> dict[Any, Outcome]:
-    """Read the outcomes of a journal, of each task the first success or the last failure."""
+def _outcomes_in(directory: Path, kind: Kind, tasks: set[Any]) -> dict[Any, Outcome]:
+    """Read the outcomes of a journal; none if there is none."""
     path = directory / JOURNAL
     try:
-        lines = read_journal(path, kind)
+        return {outcome.task: outcome for _, outcome in _kept(path, kind, tasks)}
     except FileNotFoundError:
         return {}
-    outcomes: dict[Any, Outcome] = {}
-    for outcome in lines:
+
+
+def _kept(
+    path: Path, kind: Kind, tasks: set[Any], damaged: Callable[[str], None] | None = None
+) -> Iterator[tuple[int, Outcome]]:
+    """Read places and outcomes of a journal, without those that follow a success of their task.
+
+    The last that comes of a task is the one that counts: its first success, or its last failure.
+    """
+    succeeded = set()
+    for place, outcome in read_journal(path, kind, damaged):
         if outcome.task not in tasks:
             raise InputError(
                 f"{path} holds a task that is not in the design ({outcome.task}): run the study in "
                 "a new directory."
             )
-        known = outcomes.get(outcome.task)
-        if known is None or known.error is not None:
-            outcomes[outcome.task] = outcome
-    return outcomes
+        if outcome.task not in succeeded:
+            yield place, outcome
+        if outcome.error is None:
+            succeeded.add(outcome.task)
 
 
 def _check_files(directory: Path, sha256: dict[str, str]) -> None:
     for name, expected in sha256.items():
         path = directory / name
         if not path.exists():
-            raise InputError(f"{path} is missing: restore it, or run the study in a new directory.")
+            raise InputError(f"{path} is missing: restore it, or run with --repair.")
         if _sha256(path) != expected:
             raise InputError(
                 f"{path} was cut short or edited since its run (its checksum differs): restore it, "
-                "or run the study in a new directory."
+                "or run with --repair."
             )
 
 
@@ -379,20 +386,14 @@ def _sha256(path: Path) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def _read_parquet(path: Path, schema: pa.Schema) -> pa.Table:
+def _read_parquet(path: Path, table: ResultTable) -> pa.Table:
+    """Read a table; one that no result depends on may be lost."""
     try:
-        return pq.read_table(path, schema=schema)
+        return pq.read_table(path, schema=table.schema)
     except (OSError, pa.ArrowException) as error:
+        if not table.reproducible:
+            return table.schema.empty_table()
         raise InputError(
-            f"{path} cannot be read ({str(error).splitlines()[0]}): restore it, or run the study "
-            "in a new directory."
+            f"{path} cannot be read ({str(error).splitlines()[0]}): restore it, or run with "
+            "--repair."
         ) from None
-
-
-@contextmanager
-def _writing(directory: Path) -> Iterator[None]:
-    """Turn failures to write into sentences."""
-    try:
-        yield
-    except OSError as error:
-        raise InputError(f"Cannot write into {directory}: {error.strerror or error}.") from None

@@ -1,12 +1,19 @@
-"""Batches: tasks that are sent to a worker together, and which of them fits into memory next."""
+"""Batches: how many tasks are sent to a worker together, and which fit into memory next."""
 
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from math import inf
 from typing import Any, NamedTuple
 
-#: Tasks of less work (such as points) than this are sent several at a time.
-BATCH_WORK = 2_000_000
+#: A batch is to take about as long: the first result comes soon, a lost worker costs little.
+BATCH_SECONDS = 1.0
+
+#: Batches in a second that one client can follow; with more threads they are longer.
+_BATCHES_A_SECOND = 100
+
+#: A batch has at most as many times the tasks of one whose time is known.
+_GROWTH = 8
 
 #: The last batches are smaller, so that no worker is left with a long one at the end.
 _LAST_SHARE = 4
@@ -46,66 +53,94 @@ class Batch:
 class Batches:
     """The batches that wait to be sent, the largest tasks first.
 
+    How long tasks take is told by the batches that have ended: as the largest come first, the next
+    ones take hardly longer.
+
     Parameters
     ----------
-    tasks : sequence of (task, Load)
-    n_threads : int
-        Tasks that are performed at a time, so far as memory allows.
-    memory : int, optional
+    tasks : iterable
+        The tasks.
+    load_of : callable
+        Returns the `Load` of a task.
+    memory : float, optional
         Bytes for all tasks that are under way together; no limit if not given. A task that is
         larger runs when no other does.
     """
 
     def __init__(
-        self, tasks: Sequence[tuple[Any, Load]], n_threads: int, memory: int | None = None
+        self, tasks: Iterable[Any], load_of: Callable[[Any], Load], memory: float | None = None
     ) -> None:
-        self._limit = memory
-        self._under_way: dict[Any, Batch] = {}
-        #: By memory, the largest first; few tasks differ in it.
-        self._waiting: dict[int, deque[Batch]] = {}
-        for batch in _divided(tasks, n_threads):
-            self._waiting.setdefault(batch.memory, deque()).append(batch)
+        self._load_of = load_of
+        self._limit = inf if memory is None else memory
+        #: By what names it, such as a future.
+        self.under_way: dict[Any, Batch] = {}
+        self._held = 0
+        self._n_waiting = 0
+        #: What waits once more, each by itself, and the rest, the largest first.
+        self._again: deque[Batch] = deque()
+        waiting: dict[Load, deque[Any]] = {}
+        for task in tasks:
+            waiting.setdefault(load_of(task), deque()).append(task)
+            self._n_waiting += 1
+        self._waiting = dict(sorted(waiting.items(), reverse=True))
+        #: Tasks in a batch, so far as known.
+        self._n_tasks = 1.0
 
-    def __len__(self) -> int:
-        """Count the batches under way."""
-        return len(self._under_way)
+    @property
+    def n_waiting(self) -> int:
+        """Tasks that are not under way."""
+        return self._n_waiting + len(self._again)
 
-    def next(self) -> Batch | None:
-        """Return the first waiting batch that fits beside those under way; None if none does."""
-        held = sum(batch.memory for batch in self._under_way.values())
-        for memory, waiting in self._waiting.items():
-            fits = self._limit is None or not held or held + memory <= self._limit
-            if waiting and fits:
-                return waiting.popleft()
-        return None
+    def smallest(self) -> float:
+        """Return the bytes that the least of what is left takes; 0 if nothing is left."""
+        batches = (batch.memory for batch in (*self.under_way.values(), *self._again))
+        return min((*batches, *(load.memory for load in self._waiting)), default=0)
+
+    def next(self, n_threads: int, largest: float = inf) -> Batch | None:
+        """Return the next batch that fits beside those under way; None if none does.
+
+        Parameters
+        ----------
+        n_threads : int
+            Tasks that are performed at a time.
+        largest : float
+            Bytes that one task may take.
+        """
+        free = min(self._limit - self._held if self.under_way else inf, largest)
+        for batch in self._again:
+            if batch.memory <= free:
+                self._again.remove(batch)
+                return batch
+        number = round(min(self._n_tasks, self._n_waiting / (_LAST_SHARE * max(n_threads, 1))))
+        tasks: list[Any] = []
+        largest_taken = 0
+        for load in [load for load in self._waiting if load.memory <= free]:
+            waiting = self._waiting[load]
+            while waiting and (not tasks or len(tasks) < number):
+                tasks.append(waiting.popleft())
+                largest_taken = max(largest_taken, load.memory)
+            if waiting:
+                break
+            del self._waiting[load]
+        self._n_waiting -= len(tasks)
+        return Batch(tasks, largest_taken) if tasks else None
 
     def begin(self, key: Any, batch: Batch) -> None:  # noqa: ANN401 - whatever names it
         """Note that a batch is under way."""
-        self._under_way[key] = batch
+        self.under_way[key] = batch
+        self._held += batch.memory
 
     def end(self, key: Any) -> Batch:  # noqa: ANN401 - whatever names it
         """Note that a batch is under way no more, and return it."""
-        return self._under_way.pop(key)
+        batch = self.under_way.pop(key)
+        self._held -= batch.memory
+        return batch
 
-    def again(self, task: Any, memory: int) -> None:  # noqa: ANN401 - of the study's kind
-        """Have a task wait once more, by itself and before the others of its size."""
-        self._waiting.setdefault(memory, deque()).appendleft(Batch([task], memory))
+    def learn(self, n_tasks: int, seconds: float, n_threads: int) -> None:
+        """Hear how long tasks of one batch took on their worker."""
+        wanted = BATCH_SECONDS * max(1.0, n_threads / _BATCHES_A_SECOND)
+        self._n_tasks = min(wanted / max(seconds, 1e-9), _GROWTH) * n_tasks
 
-
-def _divided(tasks: Sequence[tuple[Any, Load]], n_threads: int) -> Iterator[Batch]:
-    """Divide tasks into batches, the largest tasks first."""
-    remaining = sum(load.work for _, load in tasks)
-    batch: list[Any] = []
-    in_batch = memory = 0
-    limit = min(BATCH_WORK, remaining // (_LAST_SHARE * n_threads))
-    for task, load in sorted(tasks, key=lambda entry: -entry[1].work):
-        if batch and in_batch + load.work > limit:
-            yield Batch(batch, memory)
-            remaining -= in_batch
-            limit = min(BATCH_WORK, remaining // (_LAST_SHARE * n_threads))
-            batch, in_batch, memory = [], 0, 0
-        batch.append(task)
-        in_batch += load.work
-        memory = max(memory, load.memory)
-    if batch:
-        yield Batch(batch, memory)
+    def again(self, task: Any) -> None:  # noqa: ANN401 - of the study's kind
+        """Have a task wait once more, by itself and before the others."""
+        self._again.append(Batch([task], self._load_of(task).memory))

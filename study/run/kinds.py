@@ -6,7 +6,7 @@ table. A kind is one module with a task, measures and a way to perform the task,
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, Generic, NamedTuple, Protocol, Self, TypeVar
 
@@ -96,9 +96,13 @@ class Size(NamedTuple):
     work: int
 
     @classmethod
-    def total(cls, sizes: Sequence["Size"]) -> "Size":
+    def total(cls, sizes: Iterable["Size"]) -> "Size":
         """Add sizes."""
-        return cls(sum(size.parts for size in sizes), sum(size.work for size in sizes))
+        parts = work = 0
+        for size in sizes:
+            parts += size.parts
+            work += size.work
+        return cls(parts, work)
 
 
 class Memory(NamedTuple):
@@ -132,6 +136,8 @@ class Kind(ABC, Generic[Task, D]):
         Plurals of what a `Size` counts.
     preparing : str
         A sentence that says what `prepare` does, for when it takes long.
+    base_memory : int
+        Bytes that a worker takes beside its task.
     """
 
     name: ClassVar[str]
@@ -140,6 +146,7 @@ class Kind(ABC, Generic[Task, D]):
     tables: Mapping[str, ResultTable]
     units: ClassVar[tuple[str, str]]
     preparing: ClassVar[str]
+    base_memory: ClassVar[int] = 0
 
     @abstractmethod
     def tasks_of(self, design: D) -> list[Task]:
@@ -159,7 +166,7 @@ class Kind(ABC, Generic[Task, D]):
 
     @abstractmethod
     def memory_of(self, task: Task, design: D) -> Memory:
-        """Return the memory that a task takes."""
+        """Return the memory that a task takes, without that of the process."""
 
     @abstractmethod
     def prepare(self) -> None:

@@ -3,35 +3,27 @@
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from math import inf
 from pathlib import Path
-from time import monotonic, perf_counter, sleep
-from typing import Any, Protocol, cast
+from time import perf_counter, sleep
+from typing import Any, NamedTuple, Protocol, cast
 
-from distributed import Client, Future, KilledWorker, as_completed, get_worker
+from distributed import Future, KilledWorker, as_completed, get_worker
 
-from lepp import InputError
 from study.results.store import Store
-from study.run.batches import Batches, Load
-from study.run.cluster import check_request, connect, free_memory
+from study.run.batches import Batch, Batches, Load
+from study.run.cluster import ClusterOptions, check_request, connect
 from study.run.kinds import Kind, Outcome, Size
-
-#: Batches under way for each thread of a worker: one computed, one waiting there, one on its way.
-_AHEAD = 3
+from study.run.memory import in_words
+from study.run.waiting import RunStoppedError, Waiting
+from study.run.workers import Workers
 
 #: Times that a task is tried before its failure is its result.
 ATTEMPTS = 3
 
 _POLL_SECONDS = 0.01
-_RECOUNT_SECONDS = 2.0
 
-_LOST = (
-    "The connection to the scheduler was lost; what was finished is kept, and the same command "
-    "goes on from there when the scheduler is back."
-)
-
-
-class RunStoppedError(InputError):
-    """The cluster was lost in the middle of a run; what was finished is kept."""
+_LOST = "The connection to the scheduler was lost"
 
 
 class Listener(Protocol):
@@ -79,39 +71,14 @@ class Summary:
     n_threads: int
 
 
-class Threads:
-    """The threads of a cluster's workers, counted now and then.
-
-    Parameters
-    ----------
-    client : distributed.Client
-        The cluster.
-    """
-
-    def __init__(self, client: Client) -> None:
-        self._client = client
-        self.now = self.most = 0
-        self._counted = -_RECOUNT_SECONDS
-        self.count()
-
-    def count(self) -> bool:
-        """Count if it is time; return whether the last thread has gone."""
-        if monotonic() - self._counted <= _RECOUNT_SECONDS:
-            return False
-        before, self.now = self.now, sum(cast(Any, self._client).nthreads().values())
-        self.most = max(self.most, self.now)
-        self._counted = monotonic()
-        return before > 0 and self.now == 0
-
-
 def run(
     directory: Path,
     kind: Kind,
     design: Any,  # noqa: ANN401 - of the kind's own type
     *,
-    workers: int | None = None,
-    scheduler: str | None = None,
+    options: ClusterOptions,
     listener: Listener,
+    repair: bool = False,
 ) -> Summary:
     """Compute what a results directory lacks of a design.
 
@@ -123,60 +90,54 @@ def run(
         The kind of the tasks.
     design : kind.design
         The design.
-    workers, scheduler : int or None, str or None
-        As in `study.run.cluster.connect`.
+    options : ClusterOptions
+        Where.
     listener : Listener
         Hears of the progress.
+    repair : bool
+        Whether what is damaged or missing in the directory is to be computed again.
 
     Raises
     ------
     InputError
-        If the directory or the cluster cannot be used; `RunStoppedError` if the scheduler is lost.
+        If the directory or the cluster cannot be used; `RunStoppedError` if the scheduler is lost,
+        or there are no workers for too long.
     """
     start = perf_counter()
-    # Somebody else's workers each have room for as many tasks as they have threads.
-    memory = free_memory() if scheduler is None else None
-    computed, kernel_seconds, n_threads = [Size(0, 0)], 0.0, 0
+    computed, kernel_seconds, n_threads = Size(0, 0), 0.0, 0
     if not directory.exists():  # nothing is left of a run that could not begin
-        check_request(kind, design, workers, scheduler)
-    with Store(directory, kind, design, listener.note) as store:
+        check_request(kind, design, options)
+    with Store(directory, kind, design, listener.note, repair=repair) as store:
         if store.unfinished:
-            with connect(kind, design, workers, scheduler, listener.note) as client:
-                threads = Threads(client)
-                for outcome in compute(client, threads, store, listener, memory):
+            with connect(kind, design, options, listener.note) as workers:
+                waiting = options.waiting(listener.note)
+                for outcome in compute(workers, waiting, store, listener):
                     size = kind.size_of(outcome.task, design)
                     listener.advance(outcome, size)
-                    computed.append(size)
+                    computed = Size.total((computed, size))
                     kernel_seconds += outcome.seconds
-                n_threads = threads.most
+                n_threads = workers.most
                 store.finish()
         failures = store.failures
     seconds = perf_counter() - start
-    return Summary(Size.total(computed), kind.units, failures, seconds, kernel_seconds, n_threads)
+    return Summary(computed, kind.units, failures, seconds, kernel_seconds, n_threads)
 
 
 def compute(
-    client: Client,
-    threads: Threads,
-    store: Store,
-    listener: Listener,
-    memory: int | None = None,
+    workers: Workers, waiting: Waiting, store: Store, listener: Listener
 ) -> Iterator[Outcome]:
     """Compute the unfinished tasks of a store on a cluster, and keep what comes back.
 
     Parameters
     ----------
-    client : distributed.Client
-        The cluster.
-    threads : Threads
-        Of its workers; counted while this goes on.
+    workers : Workers
+        What computes them.
+    waiting : Waiting
+        Hears of what is waited for.
     store : Store
-        Gives the tasks and takes their outcomes.
+        Open for writing; gives the kind, the design and the tasks.
     listener : Listener
-        Hears of the beginning, and if the workers are gone.
-    memory : int, optional
-        Bytes for all tasks under way together: what does not fit side by side runs one after the
-        other. No limit if not given.
+        Hears when the first tasks are sent.
 
     Yields
     ------
@@ -184,52 +145,129 @@ def compute(
         As they are kept; of failures the last.
     """
     kind, design = store.kind, store.design
-    unfinished = store.unfinished
-    sizes = {task: kind.size_of(task, design) for task in store.tasks}
-    needs = {task: kind.memory_of(task, design).n_bytes for task in unfinished}
-    loads = [(task, Load(sizes[task].work, needs[task])) for task in unfinished]
-    batches = Batches(loads, max(threads.now, 1), memory)
-    attempts: Counter[Any] = Counter()
-    # Typed Any because this class of distributed has no annotations.
-    arrivals: Any = cast(Any, as_completed)(loop=client.loop, with_results=True, raise_errors=False)
-    begun = not unfinished
+    todo = Size.total(kind.size_of(task, design) for task in store.unfinished)
+    whole = Size.total(kind.size_of(task, design) for task in store.tasks)
+    course = _Course(workers, store)
+    begun = False
     while True:
-        while len(batches) < _AHEAD * max(threads.now, 1):
-            batch = batches.next()
-            if batch is None:
-                break
-            # Not pure: a name of its own, whatever else runs at this scheduler.
-            future = client.submit(perform_batch, batch.tasks, kind, design, pure=False)
-            batches.begin(future, batch)
-            arrivals.add(future)
+        missing = workers.look()
+        course.send()
         if not begun:
-            todo = Size.total([sizes[task] for task in unfinished])
-            whole = Size.total(list(sizes.values()))
-            listener.begin(kind.units, todo, whole, threads.now)
+            listener.begin(kind.units, todo, whole, workers.now)
             begun = True
-        if not len(batches):
+        if course.ended:
             return
-        arrived = arrivals.next_batch(block=False)
-        for future, result in arrived:
-            tasks = batches.end(future).tasks
-            final = []
-            for outcome in _outcomes_of(future, result, tasks, kind, design):
-                attempts[outcome.task] += 1
-                if outcome.error is None or attempts[outcome.task] >= ATTEMPTS:
-                    final.append(outcome)
-                else:
-                    batches.again(outcome.task, needs[outcome.task])
-            yield from store.add(final)
-        if client.status != "running":
+        arrived = False
+        for outcomes in course.arrivals():
+            arrived = True
+            yield from store.add(outcomes)
+        if workers.client.status != "running":
             raise RunStoppedError(_LOST)
+        waiting.look(None if arrived else missing or course.missing())
         if not arrived:
             sleep(_POLL_SECONDS)
-        if threads.count():
-            listener.note("There are no workers any more; waiting for new ones.")
 
 
-def perform_batch(tasks: Sequence[Any], kind: Kind, design: Any) -> list[Outcome]:  # noqa: ANN401 - of the kind's own type
+class _Course:
+    """The batches of a run on their way to workers and back."""
+
+    def __init__(self, workers: Workers, store: Store) -> None:
+        self._workers, self._kind, self._design = workers, store.kind, store.design
+        self._batches = Batches(store.unfinished, self._load_of, workers.memory)
+        self._attempts: Counter[Any] = Counter()
+        # Typed Any because this class of distributed has no annotations.
+        self._futures: Any = cast(Any, as_completed)(
+            loop=workers.client.loop, with_results=True, raise_errors=False
+        )
+
+    @property
+    def ended(self) -> bool:
+        """Whether nothing is left."""
+        return not self._batches.under_way and not self._batches.n_waiting
+
+    def missing(self) -> str | None:
+        """Say what keeps the rest from being computed by the workers that there are."""
+        memory = self._batches.smallest()
+        if memory <= self._workers.largest:
+            return None
+        return f"a worker that has {in_words(memory)} for one task"
+
+    def send(self) -> None:
+        """Send as many batches as are to be under way, and again those that found no worker."""
+        workers, under_way = self._workers, self._batches.under_way
+        if (above := workers.stranded_above()) is not None:
+            for future, batch in list(under_way.items()):
+                if batch.memory > above:
+                    self._batches.end(future)
+                    future.release()
+                    self._send(batch)
+        largest = workers.largest if workers.now else inf
+        while len(under_way) < workers.ahead * max(workers.now, 1):
+            next_batch = self._batches.next(workers.now, largest)
+            if next_batch is None:
+                return
+            self._send(next_batch)
+
+    def arrivals(self) -> Iterator[list[Outcome]]:
+        """Return what has come back of each batch, without what is tried again."""
+        for future, result in self._futures.next_batch(block=False):
+            if future not in self._batches.under_way:
+                continue  # it was sent once more
+            batch = self._batches.end(future)
+            done = _done(future, result, batch.tasks, self._kind, self._design)
+            if done is None:
+                if self._workers.client.status == "running":
+                    self._send(batch)
+                continue
+            if done.seconds:
+                self._batches.learn(len(batch.tasks), done.seconds, self._workers.now)
+            yield [outcome for outcome in done.outcomes if not self._again(outcome)]
+
+    def _again(self, outcome: Outcome) -> bool:
+        """Have a task that has failed tried again, if it was not often enough."""
+        if outcome.error is None:
+            return False
+        self._attempts[outcome.task] += 1
+        if self._attempts[outcome.task] >= ATTEMPTS:
+            return False
+        self._batches.again(outcome.task)
+        return True
+
+    def _send(self, batch: Batch) -> None:
+        future = self._workers.client.submit(
+            perform_batch,
+            batch.tasks,
+            self._kind,
+            self._design,
+            pure=False,  # a name of its own, whatever else runs at this scheduler
+            resources=self._workers.resources(batch.memory),
+        )
+        self._batches.begin(future, batch)
+        self._futures.add(future)
+
+    def _load_of(self, task: Any) -> Load:  # noqa: ANN401 - of the kind's own type
+        memory = self._kind.memory_of(task, self._design).n_bytes
+        return Load(self._kind.size_of(task, self._design).work, memory)
+
+
+class Done(NamedTuple):
+    """What a batch gave.
+
+    Attributes
+    ----------
+    outcomes : list of Outcome
+        Of its tasks.
+    seconds : float
+        How long it took on its worker; 0 if that is not known.
+    """
+
+    outcomes: list[Outcome]
+    seconds: float
+
+
+def perform_batch(tasks: Sequence[Any], kind: Kind, design: Any) -> Done:  # noqa: ANN401 - of the kind's own type
     """Perform tasks one after the other on a worker; an error is the outcome of its task alone."""
+    start = perf_counter()
     worker = get_worker().address
     outcomes = []
     for task in tasks:
@@ -238,22 +276,23 @@ def perform_batch(tasks: Sequence[Any], kind: Kind, design: Any) -> list[Outcome
         except Exception as error:
             outcome = kind.failed(task, design, _in_words(error))
         outcomes.append(replace(outcome, worker=worker))
-    return outcomes
+    return Done(outcomes, perf_counter() - start)
 
 
-def _outcomes_of(
+def _done(
     future: Future,
     result: object,
     tasks: Sequence[Any],
     kind: Kind,
     design: Any,  # noqa: ANN401 - of the kind's own type
-) -> list[Outcome]:
+) -> Done | None:
+    """Return what a batch gave; None if its worker left with it, or the scheduler was lost."""
     if future.status == "finished":
-        return cast(list[Outcome], result)
+        return cast(Done, result)
     if future.status == "error":
         _, error, _ = cast(tuple[type, BaseException, object], result)
-        return [kind.failed(task, design, _in_words(error)) for task in tasks]
-    raise RunStoppedError(_LOST)
+        return Done([kind.failed(task, design, _in_words(error)) for task in tasks], 0.0)
+    return None
 
 
 def _in_words(error: BaseException) -> str:

@@ -14,6 +14,7 @@ from tiny_runs import store_run
 from reports.cli.main import main
 from study.design.design import Design
 from study.results.store import Store, load
+from study.run.local import LocalWorkers
 from study.run.triangulations import TRIANGULATIONS, Triangulations
 
 SETTINGS = "sizes = [200, 400, 800]\nrepetitions = 4\nseed = 3\n"
@@ -26,23 +27,30 @@ def config(tmp_path):
     return path
 
 
+@contextmanager
+def in_process(n_threads):
+    """A local cluster in threads of this process."""
+    with (
+        LocalCluster(
+            n_workers=1,
+            threads_per_worker=n_threads,
+            processes=False,
+            dashboard_address=None,
+            scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
+        ) as cluster,
+        Client(cluster) as client,
+    ):
+        yield client, cluster
+
+
 @pytest.fixture
 def threads(monkeypatch):
     """The local cluster of a run, in threads of this process."""
 
     @contextmanager
-    def connect(kind, design, workers, scheduler, note):
-        with (
-            LocalCluster(
-                n_workers=1,
-                threads_per_worker=2,
-                processes=False,
-                dashboard_address=None,
-                scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
-            ) as cluster,
-            Client(cluster) as client,
-        ):
-            yield client
+    def connect(kind, design, options, note):
+        with in_process(2) as (client, cluster):
+            yield LocalWorkers(client, cluster, 1)
 
     monkeypatch.setattr("study.run.runner.connect", connect)
 
@@ -135,16 +143,8 @@ def test_a_failure_that_stays_ends_with_the_list_again(tmp_path, config, threads
 
 def test_workers_that_leave_at_the_end_are_no_failure(tmp_path, config, monkeypatch):
     @contextmanager
-    def connect(kind, design, workers, scheduler, note):
-        with (
-            LocalCluster(
-                n_workers=1,
-                processes=False,
-                dashboard_address=None,
-                scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
-            ) as cluster,
-            Client(cluster) as client,
-        ):
+    def connect(kind, design, options, note):
+        with in_process(1) as (client, cluster):
             finish = Store.finish
 
             def leave(store):
@@ -154,7 +154,7 @@ def test_workers_that_leave_at_the_end_are_no_failure(tmp_path, config, monkeypa
                 finish(store)
 
             monkeypatch.setattr(Store, "finish", leave)
-            yield client
+            yield LocalWorkers(client, cluster, 1)
 
     monkeypatch.setattr("study.run.runner.connect", connect)
     result = lepp_study("run", tmp_path / "out", "--config", config)
@@ -234,7 +234,7 @@ def test_an_interrupted_run_says_how_to_go_on(tmp_path, config, threads, monkeyp
         (["run", "mine.toml"], "mine.toml is a file"),
         (["run", ".", "--preset", "smoke"], "is not empty and holds no results of lepp-study"),
         (["report", "."], "holds no results of lepp-study (manifest.json is missing)"),
-        (["run", "new", "--workers", "2", "--scheduler", "tcp://127.0.0.1:1"], "not both"),
+        (["run", "new", "--workers", "2", "--scheduler", "tcp://127.0.0.1:1"], "one of --workers"),
     ],
 )
 def test_bad_input_is_one_sentence(arguments, words, config, monkeypatch):
@@ -244,6 +244,13 @@ def test_bad_input_is_one_sentence(arguments, words, config, monkeypatch):
     assert words in result.output
     assert result.output.startswith("Error: ")
     assert result.output.count("\n") == 1
+
+
+@pytest.mark.parametrize("words", ["soon", "-1s", "90 parsecs"])
+def test_a_wait_that_is_no_time_is_told(words):
+    result = lepp_study("run", "new", "--wait", words)
+    assert result.exit_code == 2
+    assert f"{words!r} is no time: write it as 90s, 30min or 2h." in result.output
 
 
 def test_an_unknown_command_lists_the_known():

@@ -253,7 +253,7 @@ def test_a_death_at_any_moment_of_taking_up_failures_is_survived(tmp_path, monke
         with monkeypatch.context() as patch:
             kill_at_step(patch, steps)
             # The making of the lock is no step, and the death of a process releases it.
-            patch.setattr(store_module, "_locked", lambda *_: FileLock(tmp_path / "none"))
+            patch.setattr(store_module, "locked", lambda *_: FileLock(tmp_path / "none"))
             try:
                 Store(directory, TRIANGULATIONS, DESIGN)
                 finished = True
@@ -486,11 +486,75 @@ def test_edited_and_missing_files_are_named(whole, name):
         load(whole)
 
 
-def test_timings_cut_short_are_named(whole):
-    path = whole / "timings.parquet"
-    path.write_bytes(path.read_bytes()[:100])
-    with pytest.raises(InputError, match=r"timings\.parquet cannot be read"):
-        load(whole)
+@pytest.mark.parametrize("harm", [Path.unlink, lambda path: path.write_bytes(b"PAR1")])
+def test_timings_may_be_lost(whole, harm):
+    harm(whole / "timings.parquet")
+    loaded = load(whole)
+    assert loaded.complete
+    assert loaded["timings"].empty
+    assert len(loaded["results"]) == len(TASKS)
+    with Store(whole, TRIANGULATIONS, DESIGN) as store:
+        assert store.unfinished == []
+
+
+@pytest.mark.parametrize("harm", [edit, Path.unlink])
+def test_what_is_damaged_is_computed_again_on_request(whole, harm):
+    before = contents(whole)
+    harm(whole / "layers.parquet")
+    notes = []
+    with Store(whole, TRIANGULATIONS, DESIGN, notes.append, repair=True) as store:
+        assert store.unfinished == TASKS
+        store.add([outcome(task) for task in TASKS])
+        store.finish()
+    assert contents(whole) == before
+    (note,) = notes
+    assert "layers.parquet" in note
+    assert note.endswith("run with --repair. Its study is computed again.")
+
+
+def test_damaged_lines_are_left_out_on_request(tmp_path, whole):
+    journal = cut_short(tmp_path / "cut")
+    lines = journal.read_bytes().splitlines(keepends=True)
+    journal.write_bytes(b"".join([lines[0], b"{}\n", *lines[2:4], b"\n", *lines[4:]]))
+    notes = []
+    with Store(tmp_path / "cut", TRIANGULATIONS, DESIGN, notes.append, repair=True) as store:
+        assert store.unfinished == [TASKS[1], *TASKS[5:]]
+        assert journal.read_bytes() == b"".join([lines[0], *lines[2:]])
+        store.add([outcome(task) for task in store.unfinished])
+        store.finish()
+    assert contents(tmp_path / "cut") == contents(whole)
+    assert notes == [f"2 damaged lines of {journal} are left out and computed again."]
+
+
+def test_the_parts_of_large_tables_are_put_in_order(tmp_path, monkeypatch):
+    """Files that are made in many parts hold the rows of those made in one, in the same order."""
+    design = Design.from_settings(DESIGN.model_dump() | {"methods": ["incremental", "delaunay"]})
+
+    def both(task):
+        one = outcome(task)
+        twice = {
+            name: [*cells, *((design.methods[1], *rest) for first, *rest in cells if first)]
+            for name, cells in one.rows.items()
+        }
+        return Outcome(task, twice | {"point_sets": one.rows["point_sets"]}, worker="tcp://w")
+
+    def made(name):
+        with Store(tmp_path / name, TRIANGULATIONS, design) as store:
+            store.add([both(task) for task in TASKS])
+            store.finish()
+        return load(tmp_path / name)
+
+    in_one = made("one")
+    monkeypatch.setattr("study.results.tables.TASKS_AT_A_TIME", 5)
+    in_parts = made("parts")
+    for name, frame in in_one.frames.items():
+        pd.testing.assert_frame_equal(frame, in_parts[name])
+    methods = in_parts["results"]["method"].tolist()
+    assert methods == sorted(methods, key=design.methods.index)
+    assert len(methods) == 2 * len(TASKS)
+    assert sorted(path.name for path in (tmp_path / "parts").iterdir()) == sorted(
+        path.name for path in (tmp_path / "one").iterdir()
+    )
 
 
 @pytest.mark.parametrize(
@@ -500,8 +564,9 @@ def test_timings_cut_short_are_named(whole):
         (lambda text: "[]", "was cut short or edited"),
         (lambda text: text.replace('"tasks"', '"task"'), "was cut short or edited"),
         (lambda text: text.replace('"sha256"', '"sha"'), "was cut short or edited"),
-        (lambda text: text.replace('"format": 3', '"format": 99'), "is of format 99, and this"),
-        (lambda text: text.replace('"repetitions": 3', '"repetitions": 0'), "repetitions = 0"),
+        (lambda text: text.replace('"format": 4', '"format": 99'), "is of format 99, and this"),
+        (lambda text: text.replace('"seed": 1', '"seed": 2'), "was cut short or edited"),
+        (lambda text: text.replace('"failed": 0', '"failed": 1'), "was cut short or edited"),
     ],
 )
 def test_a_wrong_manifest_is_named(whole, change, words):

@@ -3,15 +3,16 @@
 import json
 
 import pytest
-from distributed import Client, LocalCluster
 from primes import PRIMES, PrimeDesign, Primes, Range
 
 from lepp import InputError
 from study.design.design import Design
 from study.results.store import Store, load
+from study.run.local import LocalWorkers
 from study.run.registry import KINDS
-from study.run.runner import Threads, compute
+from study.run.runner import compute
 from study.run.triangulations import TRIANGULATIONS
+from study.run.waiting import Waiting
 
 DESIGN = PrimeDesign(ranges=6, length=10)
 
@@ -19,17 +20,6 @@ DESIGN = PrimeDesign(ranges=6, length=10)
 @pytest.fixture(autouse=True)
 def known(monkeypatch):
     monkeypatch.setitem(KINDS, PRIMES.name, PRIMES)
-
-
-@pytest.fixture(scope="module")
-def threads():
-    with (
-        LocalCluster(
-            n_workers=1, threads_per_worker=2, processes=False, dashboard_address=None
-        ) as cluster,
-        Client(cluster) as client,
-    ):
-        yield client
 
 
 class Deaf:
@@ -40,10 +30,11 @@ class Deaf:
         raise AssertionError(sentence)
 
 
-def run(client, directory):
+def run(threads, directory):
     deaf = Deaf()
+    waiting = Waiting(60, "a test", deaf.note)
     with Store(directory, PRIMES, DESIGN) as store:
-        outcomes = list(compute(client, Threads(client), store, deaf))
+        outcomes = list(compute(LocalWorkers(*threads, 1), waiting, store, deaf))
         store.finish()
     return outcomes, deaf
 

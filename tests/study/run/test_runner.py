@@ -5,95 +5,24 @@ import subprocess
 import sys
 from contextlib import contextmanager
 from pathlib import Path
+from time import sleep
 
 import psutil
 import pytest
-from distributed import Client, LocalCluster
+from faults import DESIGN, TASKS, Heard, contents, worker_processes
 
 from lepp import InputError
-from study.design.design import Design
 from study.results.store import Store, load
+from study.run.cluster import ClusterOptions
 from study.run.kinds import Size
-from study.run.runner import (
-    ATTEMPTS,
-    RunStoppedError,
-    Threads,
-    compute,
-    run,
-)
+from study.run.local import LocalWorkers
+from study.run.runner import ATTEMPTS, RunStoppedError, compute, run
 from study.run.triangulations import TRIANGULATIONS, Triangulations
-
-DESIGN = Design.from_settings({"sizes": [500, 1000, 2000], "repetitions": 6, "seed": 5})
-TASKS = TRIANGULATIONS.tasks_of(DESIGN)
-FILES = (
-    "results.parquet",
-    "histograms.parquet",
-    "layers.parquet",
-    "regions.parquet",
-    "point_sets.parquet",
-    "manifest.json",
-)
-
-
-class Heard:
-    """A listener that remembers, and acts when it has heard of a number of outcomes."""
-
-    def __init__(self, act=None, after=1):
-        self.tasks, self.notes, self.act, self.after = [], [], act, after
-
-    def begin(self, units, unfinished, whole, n_threads):
-        self.units, self.unfinished, self.whole = units, unfinished, whole
-
-    def advance(self, outcome, size):
-        self.tasks.append(outcome.task)
-        if self.act and len(self.tasks) == self.after:
-            self.act()
-
-    def note(self, sentence):
-        self.notes.append(sentence)
-
-
-def contents(directory):
-    return {name: (directory / name).read_bytes() for name in FILES}
-
-
-def worker_processes(parent=None):
-    return [
-        child
-        for child in psutil.Process(parent).children(recursive=True)
-        if "spawn_main" in " ".join(child.cmdline())
-    ]
-
-
-@pytest.fixture(scope="module")
-def whole(tmp_path_factory):
-    """What an undisturbed run with one worker leaves."""
-    directory = tmp_path_factory.mktemp("whole") / "results"
-    heard = Heard()
-    summary = run(directory, TRIANGULATIONS, DESIGN, workers=1, listener=heard)
-    assert summary.computed == Size(DESIGN.n_triangulations, DESIGN.n_points)
-    assert summary.n_threads == 1
-    assert 0 < summary.kernel_seconds < summary.seconds
-    assert heard.unfinished == heard.whole == summary.computed
-    assert heard.units == summary.units == ("triangulations", "points")
-    assert sorted(heard.tasks) == sorted(TASKS)
-    assert load(directory)["results"]["error"].isna().all()
-    return directory
-
-
-@pytest.fixture(scope="module")
-def threads():
-    with (
-        LocalCluster(
-            n_workers=1, threads_per_worker=2, processes=False, dashboard_address=None
-        ) as cluster,
-        Client(cluster) as client,
-    ):
-        yield client
+from study.run.waiting import Waiting
 
 
 def test_a_failing_task_is_recorded_and_a_shaky_one_tried_again(
-    threads, tmp_path, monkeypatch, whole
+    finish, tmp_path, monkeypatch, whole
 ):
     hopeless, shaky = TASKS[0], TASKS[40]
     tries = []
@@ -107,9 +36,9 @@ def test_a_failing_task_is_recorded_and_a_shaky_one_tried_again(
 
     monkeypatch.setattr(Triangulations, "perform", sometimes)
     heard = Heard()
-    with Store(tmp_path, TRIANGULATIONS, DESIGN) as store:
-        outcomes = list(compute(threads, Threads(threads), store, heard))
-        store.finish()
+    outcomes = finish(tmp_path, heard)
+    assert heard.whole == heard.unfinished == Size(DESIGN.n_triangulations, DESIGN.n_points)
+    assert heard.units == ("triangulations", "points")
     assert tries.count(hopeless) == tries.count(shaky) == ATTEMPTS
     assert len(tries) == len(TASKS) + 2 * (ATTEMPTS - 1)
     assert [o.task for o in outcomes if o.error] == [hopeless]
@@ -119,15 +48,13 @@ def test_a_failing_task_is_recorded_and_a_shaky_one_tried_again(
 
     # The next run tries only what failed, and ends with the same bytes as a run without failures.
     monkeypatch.undo()
-    with Store(tmp_path, TRIANGULATIONS, DESIGN) as store:
-        again = compute(threads, Threads(threads), store, heard)
-        assert [o.task for o in again] == [hopeless]
-        store.finish()
+    assert [o.task for o in finish(tmp_path, heard)] == [hopeless]
+    assert heard.unfinished == (1, hopeless.n_points)
     assert contents(tmp_path) == contents(whole)
 
 
 def test_what_does_not_fit_side_by_side_runs_one_after_the_other(
-    threads, tmp_path, monkeypatch, whole
+    finish, tmp_path, monkeypatch, whole
 ):
     together, most = [], []
     perform = Triangulations.perform
@@ -141,29 +68,67 @@ def test_what_does_not_fit_side_by_side_runs_one_after_the_other(
             together.remove(task)
 
     monkeypatch.setattr(Triangulations, "perform", watched)
-    monkeypatch.setattr("study.run.batches.BATCH_WORK", 1)
-    with Store(tmp_path, TRIANGULATIONS, DESIGN) as store:
-        list(compute(threads, Threads(threads), store, Heard(), memory=1))
-        store.finish()
+    finish(tmp_path, memory=1)
     assert max(most) == 1
     assert contents(tmp_path) == contents(whole)
 
 
+def test_a_run_whose_workers_do_not_come_back_ends_with_a_sentence(threads, tmp_path, monkeypatch):
+    heard = Heard()
+
+    class Gone(LocalWorkers):
+        """Asks for memory that nobody has, so that nothing is computed; counts no worker."""
+
+        def look(self):
+            return "new workers, as the old ones died"
+
+        def resources(self, memory):
+            return {"nobody's": 1}
+
+    client, cluster = threads
+    monkeypatch.setattr(cluster, "scale", lambda n: None)
+    gone = Gone(client, cluster, 1)
+    waiting = Waiting(0.3, "see what kills them", heard.note)
+    with (
+        Store(tmp_path, TRIANGULATIONS, DESIGN) as store,
+        pytest.raises(RunStoppedError, match=r"Waited .* for new workers, as the old ones died"),
+    ):
+        list(compute(gone, waiting, store, heard))
+
+
 @pytest.mark.cluster
-def test_two_workers_one_of_them_killed_leave_the_same_bytes(tmp_path, whole):
-    def kill():
-        victim, _ = worker_processes()
+def test_a_worker_killed_and_one_lost_for_good_leave_the_same_bytes(tmp_path, whole, monkeypatch):
+    clusters = []
+    start = LocalWorkers.__init__
+
+    def watched(self, client, cluster, *arguments):
+        clusters.append(cluster)
+        start(self, client, cluster, *arguments)
+
+    def harm():
+        (cluster,) = clusters
+        first, second = cluster.workers.values()
+        # What a nanny does whose worker dies while it starts.
+        cluster.sync(second.close, reason="nanny-instantiate-failed")
+        victim = psutil.Process(first.pid)
         victim.kill()
 
-    heard = Heard(kill)
-    summary = run(tmp_path, TRIANGULATIONS, DESIGN, workers=2, listener=heard)
+    monkeypatch.setattr(LocalWorkers, "__init__", watched)
+    heard = Heard(harm)
+    summary = run(
+        tmp_path, TRIANGULATIONS, DESIGN, options=ClusterOptions(workers=2), listener=heard
+    )
     assert sorted(heard.tasks) == sorted(TASKS)
     assert summary.failures == []
+    assert summary.computed == heard.whole
+    assert 0 < summary.kernel_seconds < summary.seconds
+    assert summary.n_threads == 2
     assert contents(tmp_path) == contents(whole)
     # Nothing is left to do, so no cluster is started.
-    again = run(tmp_path, TRIANGULATIONS, DESIGN, scheduler="tcp://127.0.0.1:1", listener=heard)
+    nowhere = ClusterOptions(scheduler="tcp://127.0.0.1:1")
+    again = run(tmp_path, TRIANGULATIONS, DESIGN, options=nowhere, listener=heard)
     assert again.computed == (0, 0) == (again.n_threads, 0)
-    _, alive = psutil.wait_procs(worker_processes(), timeout=10)
+    _, alive = psutil.wait_procs(worker_processes(), timeout=30)
     assert alive == []
 
 
@@ -171,7 +136,11 @@ CLIENT = """
 import signal
 import sys
 from pathlib import Path
-from test_runner import DESIGN, TRIANGULATIONS, Heard, run
+from faults import DESIGN, Heard
+from reports.cli.signals import stop_once
+from study.run.cluster import ClusterOptions
+from study.run.runner import run
+from study.run.triangulations import TRIANGULATIONS
 
 class Printing(Heard):
     def advance(self, outcome, size):
@@ -181,13 +150,18 @@ class Printing(Heard):
             signal.pause()  # never at its end before the signal comes
 
 if __name__ == "__main__":
-    run(Path(sys.argv[1]), TRIANGULATIONS, DESIGN, workers=2, listener=Printing())
+    with stop_once():
+        options = ClusterOptions(workers=1)
+        run(Path(sys.argv[1]), TRIANGULATIONS, DESIGN, options=options, listener=Printing())
 """
 
 
 @pytest.mark.cluster
-@pytest.mark.parametrize(("number", "after"), [(signal.SIGKILL, 20), (signal.SIGINT, 40)])
-def test_a_killed_run_goes_on_and_leaves_no_process(tmp_path, whole, number, after):
+@pytest.mark.parametrize(
+    ("number", "after", "times"),
+    [(signal.SIGKILL, 20, 1), (signal.SIGINT, 40, 3), (signal.SIGTERM, 10, 1)],
+)
+def test_a_killed_run_goes_on_and_leaves_no_process(tmp_path, whole, finish, number, after, times):
     script = tmp_path / "client.py"
     script.write_text(CLIENT)
     process = subprocess.Popen(
@@ -201,23 +175,22 @@ def test_a_killed_run_goes_on_and_leaves_no_process(tmp_path, whole, number, aft
     for _ in range(after):
         assert process.stdout.readline()
     orphans = worker_processes(process.pid)
-    assert len(orphans) == 2
-    if number == signal.SIGINT:
-        os.killpg(process.pid, number)  # as a terminal does
-    else:
+    assert len(orphans) == 1
+    if number == signal.SIGKILL:
         process.send_signal(number)
+    for _ in range(times if number != signal.SIGKILL else 0):
+        os.killpg(process.pid, number)  # as a terminal does, or a cluster's queue
+        sleep(0.2)
     _, errors = process.communicate()
     assert process.returncode != 0
-    # Only this process has noticed: no worker complains.
-    assert errors.count("Traceback") == (number == signal.SIGINT)
-    _, alive = psutil.wait_procs(orphans, timeout=10)
+    # Only this process has noticed, and only once: no worker complains.
+    assert errors.count("Traceback") == (number != signal.SIGKILL)
+    _, alive = psutil.wait_procs(orphans, timeout=30)
     assert alive == []
     loaded = load(tmp_path / "results")
     assert not loaded.complete
     assert len(loaded["results"]) >= after
-    heard = Heard()
-    run(tmp_path / "results", TRIANGULATIONS, DESIGN, workers=1, listener=heard)
-    assert len(heard.tasks) == len(TASKS) - len(loaded["results"])
+    assert len(finish(tmp_path / "results")) == len(TASKS) - len(loaded["results"])
     assert contents(tmp_path / "results") == contents(whole)
 
 
@@ -236,7 +209,7 @@ def dask_program(*arguments):
 
 
 @pytest.mark.cluster
-def test_a_scheduler_that_dies_keeps_what_is_finished(tmp_path, whole):
+def test_a_scheduler_that_dies_keeps_what_is_finished(tmp_path, whole, finish):
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = str(probe.getsockname()[1])
@@ -245,16 +218,18 @@ def test_a_scheduler_that_dies_keeps_what_is_finished(tmp_path, whole):
     worker = ("worker", address, "--nthreads", "1", "--no-dashboard", "--death-timeout", "20")
     with dask_program(*server) as scheduler, dask_program(*worker):
         heard = Heard(scheduler.kill)
+        options = ClusterOptions(scheduler=address)
         with pytest.raises(RunStoppedError, match="connection to the scheduler was lost"):
-            run(tmp_path / "results", TRIANGULATIONS, DESIGN, scheduler=address, listener=heard)
+            run(tmp_path / "results", TRIANGULATIONS, DESIGN, options=options, listener=heard)
     kept = load(tmp_path / "results")
     assert 0 < len(kept["results"]) < len(TASKS)
-    run(tmp_path / "results", TRIANGULATIONS, DESIGN, workers=1, listener=heard)
+    finish(tmp_path / "results")
     assert contents(tmp_path / "results") == contents(whole)
 
 
 def test_a_scheduler_that_does_not_answer_is_named(tmp_path, monkeypatch):
     monkeypatch.setattr("study.run.cluster.CONNECT_SECONDS", 1)
     for address in ("tcp://127.0.0.1:1", "127.0.0.1:1", "nonsense://x", ""):
+        options = ClusterOptions(scheduler=address)
         with pytest.raises(InputError, match="No scheduler answers at"):
-            run(tmp_path, TRIANGULATIONS, DESIGN, scheduler=address, listener=Heard())
+            run(tmp_path, TRIANGULATIONS, DESIGN, options=options, listener=Heard())
