@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 import lepp
 from study.design.design import Design
 from study.design.sampling import Points, sample_points
+from study.run.counted import Counted
 from study.run.kinds import ERROR, WORKER, Cells, Kind, Memory, Outcome, ResultTable, Size
 from study.run.measures import columns_of, fields_of, measure, measured
 from study.run.point_checks import PointChecks, check_randomness
@@ -29,88 +30,61 @@ class Task(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Measured:
-    """What the measures of one triangulation are taken of."""
-
-    triangulation: lepp.Triangulation
-    paths: lepp.LeppPaths
-    by_layer: NDArray[np.int64]
-    counts: lepp.LeppCounts
-    region_sizes: NDArray[np.int64]
-
-    @classmethod
-    def of(cls, triangulation: lepp.Triangulation) -> "Measured":
-        """Follow the paths of a triangulation, and count their sizes layer by layer."""
-        paths = lepp.lepp_paths(triangulation)
-        by_layer = lepp.sizes_by_layer(lepp.triangle_layers(triangulation), paths.sizes)
-        counts = lepp.LeppCounts(by_layer.sum(axis=0))
-        return cls(triangulation, paths, by_layer, counts, np.bincount(paths.regions))
-
-    def of_type(self, neighbor_type: int) -> int:
-        """Count the triangles whose neighbour across their longest edge is of a type."""
-        return int(np.count_nonzero(self.paths.neighbor_types == neighbor_type))
-
-
-@dataclass(frozen=True)
 class Measures:
     """What is measured of a triangulation: the columns of the results, in order."""
 
     n_triangles: int = measure(
-        "Triangles", unit="triangles", format="int", of=lambda m: len(m.triangulation)
+        "Triangles", unit="triangles", format="int", of=lambda c: c.n_triangles
     )
-    n_hull: int = measure(
-        "Points on the hull", unit="points", format="int", of=lambda m: m.triangulation.n_hull
-    )
+    n_hull: int = measure("Points on the hull", unit="points", format="int", of=lambda c: c.n_hull)
     n_repeated: int = measure(
         "Repeated points",
         unit="points",
         format="int",
-        of=lambda m: len(m.triangulation.repeated),
+        of=lambda c: c.n_repeated,
     )
     mean_lepp: float = measure(
-        "Mean LEPP", unit="triangles", format="fixed4", of=lambda m: m.counts.mean
+        "Mean LEPP", unit="triangles", format="fixed4", of=lambda c: c.lepp.mean
     )
     sd_lepp: float = measure(
-        "SD of LEPP", unit="triangles", format="fixed4", of=lambda m: m.counts.sd
+        "SD of LEPP", unit="triangles", format="fixed4", of=lambda c: c.lepp.sd
     )
     skewness_lepp: float = measure(
-        "Skewness of LEPP", format="fixed4", of=lambda m: m.counts.skewness
+        "Skewness of LEPP", format="fixed4", of=lambda c: c.lepp.skewness
     )
     kurtosis_lepp: float = measure(
-        "Excess kurtosis of LEPP", format="fixed4", of=lambda m: m.counts.kurtosis
+        "Excess kurtosis of LEPP", format="fixed4", of=lambda c: c.lepp.kurtosis
     )
-    max_lepp: int = measure(
-        "Largest LEPP", unit="triangles", format="int", of=lambda m: m.counts.max
-    )
+    max_lepp: int = measure("Largest LEPP", unit="triangles", format="int", of=lambda c: c.lepp.max)
     n_interior_longest: int = measure(
         "Longest edge inside",
         unit="triangles",
         format="int",
-        of=lambda m: np.count_nonzero(m.paths.neighbor_types),
+        of=lambda c: c.types[lepp.TYPE_A :].sum(),
     )
     n_type_a: int = measure(
-        "Type A", unit="triangles", format="int", of=lambda m: m.of_type(lepp.TYPE_A)
+        "Type A", unit="triangles", format="int", of=lambda c: c.types[lepp.TYPE_A]
     )
     n_type_b: int = measure(
-        "Type B", unit="triangles", format="int", of=lambda m: m.of_type(lepp.TYPE_B)
+        "Type B", unit="triangles", format="int", of=lambda c: c.types[lepp.TYPE_B]
     )
     n_type_c: int = measure(
-        "Type C", unit="triangles", format="int", of=lambda m: m.of_type(lepp.TYPE_C)
+        "Type C", unit="triangles", format="int", of=lambda c: c.types[lepp.TYPE_C]
     )
     n_regions: int = measure(
-        "Terminal-edge regions", unit="regions", format="int", of=lambda m: len(m.region_sizes)
+        "Terminal-edge regions", unit="regions", format="int", of=lambda c: c.regions.sum()
     )
     max_region: int = measure(
-        "Largest region", unit="triangles", format="int", of=lambda m: m.region_sizes.max()
+        "Largest region", unit="triangles", format="int", of=lambda c: len(c.regions) - 1
     )
     n_equal_longest: int = measure(
-        "Several longest edges", unit="triangles", format="int", of=lambda m: m.paths.n_equal
+        "Several longest edges", unit="triangles", format="int", of=lambda c: c.n_equal
     )
     n_nearly_equal_longest: int = measure(
         "Nearly equal longest edges",
         unit="triangles",
         format="int",
-        of=lambda m: m.paths.n_nearly_equal,
+        of=lambda c: c.n_nearly_equal,
     )
 
 
@@ -244,15 +218,18 @@ class Triangulations(Kind[Task, Design]):
         """Return the rows of one triangulation, which is let go of here."""
         triangulation = lepp.triangulate(points, method=method)
         stages.end(method, "triangulate")
-        subject = Measured.of(triangulation)
-        rows: dict[str, list[Cells]] = {
-            "results": [(method, *astuple(measured(self.measures, subject)), None)],
-            "histograms": _bars(method, subject.counts.counts),
-            "layers": _bars(method, subject.by_layer),
-            "regions": _bars(method, np.bincount(subject.region_sizes)),
-        }
+        rows = self.rows_of(method, Counted.of(triangulation))
         stages.end(method, "lepp")
         return rows
+
+    def rows_of(self, method: str, counted: Counted) -> dict[str, list[Cells]]:
+        """Return the rows of one triangulation in each table."""
+        return {
+            "results": [(method, *astuple(measured(self.measures, counted)), None)],
+            "histograms": _bars(method, counted.lepp.counts),
+            "layers": _bars(method, counted.by_layer),
+            "regions": _bars(method, counted.regions),
+        }
 
     def _without_measures(self, method: str, error: str) -> Cells:
         return (method, *[None] * len(columns_of(self.measures)), error)

@@ -128,7 +128,7 @@ def test_every_measure_is_the_twins(distribution, lattice, monkeypatch):
 @dataclass(frozen=True)
 class MoreMeasures(Measures):
     n_ending_at_once: int = measure(
-        "Paths of two", unit="triangles", format="int", of=lambda m: m.counts.counts[2]
+        "Paths of two", unit="triangles", format="int", of=lambda c: c.lepp.counts[2]
     )
 
 
