@@ -48,6 +48,29 @@ class Duration(click.ParamType):
         return seconds
 
 
+class Bytes(click.ParamType):
+    """A size of memory such as 400MB or 4GB, as bytes."""
+
+    name = "bytes"
+
+    def convert(
+        self,
+        value: Any,  # noqa: ANN401 - as click declares it
+        param: click.Parameter | None,
+        ctx: click.Context | None,
+    ) -> int:
+        """Return the bytes."""
+        from dask.utils import parse_bytes
+
+        try:
+            n_bytes = int(parse_bytes(value))
+        except ValueError:
+            n_bytes = 0
+        if n_bytes <= 0:
+            self.fail(f"{value!r} is no size of memory: write it as 400MB or 4GB.", param, ctx)
+        return n_bytes
+
+
 class Commands(click.Group):
     """A group of commands that answers a user's mistake with one sentence."""
 
@@ -131,6 +154,12 @@ def main() -> None:
     help="How long to wait at most while that cluster has no workers, such as 90s, 30min or 2h.",
 )
 @click.option(
+    "--worker-memory",
+    metavar="BYTES",
+    type=Bytes(),
+    help="Memory of each worker on this computer, such as 4GB; by default they share what is free.",
+)
+@click.option(
     "--dashboard",
     is_flag=True,
     help="Serve Dask's dashboard of the workers on this computer, and print its address.",
@@ -149,6 +178,7 @@ def run(
     scheduler: str | None,
     scheduler_file: Path | None,
     wait: float,
+    worker_memory: int | None,
     dashboard: bool,
     repair: bool,
 ) -> None:
@@ -163,7 +193,7 @@ def run(
     from reports.cli.progress import progress
     from study.run.cluster import ClusterOptions
 
-    options = ClusterOptions(workers, scheduler, scheduler_file, wait, dashboard)
+    options = ClusterOptions(workers, scheduler, scheduler_file, wait, dashboard, worker_memory)
     with progress() as listener, stop_once():
         summary = _run(directory, kind, design, options, listener, repair=repair)
     computed = perf_counter()

@@ -16,7 +16,7 @@ from distributed import Client, Worker
 
 from lepp import InputError
 from study.run.kinds import Kind
-from study.run.memory import check_memory, in_words
+from study.run.memory import USABLE, check_memory, in_words
 from study.run.waiting import duration
 from study.run.workers import Workers
 
@@ -30,8 +30,6 @@ PREPARE_SECONDS = 600
 #: A scheduler that is silent for longer is spoken of.
 SILENT_SECONDS = 30.0
 
-#: What a nanny leaves a worker of its limit, before it kills it at 95 %.
-_USABLE = 0.9
 #: The bytes of a worker without a limit.
 _UNLIMITED = 2.0**50
 
@@ -191,7 +189,7 @@ class AdmittedWorkers(Workers):
         rooms = {}
         for address, report in reports.items():
             worker = workers[address]
-            room = _USABLE * worker["memory_limit"] - self._kind.base_memory
+            room = USABLE * worker["memory_limit"] - self._kind.base_memory
             if why := difference(versions(report), self._here, SHARED):
                 self._refuse([worker["id"]], why)
             elif worker["memory_limit"] and room <= 0:

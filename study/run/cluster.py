@@ -20,7 +20,7 @@ from study.run.admission import AdmittedWorkers
 from study.run.kinds import Kind
 from study.run.local import REPLACE_SECONDS, check_dashboard, local
 from study.run.loggers import SILENCE
-from study.run.memory import check_memory, free_memory
+from study.run.memory import USABLE, check_memory, free_memory
 from study.run.waiting import PATIENCE_SECONDS, Waiting
 from study.run.workers import Workers
 
@@ -53,6 +53,8 @@ class ClusterOptions:
         Seconds to wait at most when a scheduler has no workers.
     dashboard : bool
         Whether to serve Dask's dashboard of the workers started here.
+    worker_memory : int or None
+        Bytes that each worker started here may take; None for all that is free, together.
     """
 
     workers: int | None = None
@@ -60,6 +62,7 @@ class ClusterOptions:
     scheduler_file: Path | None = None
     wait: float = 3600.0
     dashboard: bool = False
+    worker_memory: int | None = None
 
     @property
     def from_dask(self) -> str | None:
@@ -121,6 +124,7 @@ def connect(
             with local(
                 options.n_workers(kind),
                 _for_tasks(kind, options),
+                worker_memory=options.worker_memory,
                 dashboard=options.dashboard,
                 note=note,
             ) as workers:
@@ -154,14 +158,19 @@ def check_request(
             "Give one of --workers, --scheduler and --scheduler-file: a scheduler has its own "
             "workers."
         )
+    if options.worker_memory is not None and not options.local:
+        raise InputError("--worker-memory is for workers here: those of a scheduler have a limit.")
     if options.local:
-        check_memory(kind, design, _for_tasks(kind, options), "here it may take")
+        whose = "here it may take" if options.worker_memory is None else "a worker may take"
+        check_memory(kind, design, _for_tasks(kind, options), whose)
         if options.dashboard:
             check_dashboard()
 
 
 def _for_tasks(kind: Kind, options: ClusterOptions) -> int:
-    """Return the bytes that this computer has for tasks beside the processes of the workers."""
+    """Return the bytes that a task may take here, beside the processes of the workers."""
+    if options.worker_memory is not None:
+        return int(USABLE * options.worker_memory) - kind.base_memory
     return free_memory() - options.n_workers(kind) * kind.base_memory
 
 

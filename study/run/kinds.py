@@ -6,8 +6,9 @@ table. A kind is one module with a task, measures and a way to perform the task,
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, ClassVar, Generic, NamedTuple, Protocol, Self, TypeVar
 
 import pyarrow as pa
@@ -119,6 +120,52 @@ class Memory(NamedTuple):
     n_bytes: int
 
 
+class Stage(NamedTuple):
+    """Jobs of a task that can be done in any order, and side by side.
+
+    Attributes
+    ----------
+    name : str
+    words : str
+        What is done, as a sentence without its full stop.
+    jobs : list of int
+        Those that are left to do.
+    """
+
+    name: str
+    words: str
+    jobs: list[int]
+
+
+class StagedTask(Protocol):
+    """A task that takes more memory than a worker has, in stages of jobs.
+
+    Workers do the jobs, so it has to be picklable. What jobs leave to each other are files.
+    """
+
+    @property
+    def memory(self) -> int:
+        """Bytes that each job takes."""
+
+    def stages(self) -> Iterator[Stage]:
+        """Yield the stages; the next is asked for when all jobs of the last are done.
+
+        Raises
+        ------
+        InputError
+            If there is no room for the files.
+        """
+
+    def perform(self, name: str, job: int) -> None:
+        """Do a job of a stage."""
+
+    def outcome(self) -> Outcome:
+        """Return the outcome of the task, when all is done."""
+
+    def close(self) -> None:
+        """Remove the files."""
+
+
 class Kind(ABC, Generic[Task, D]):
     """A kind of task. It has no state: workers know it by its name.
 
@@ -167,6 +214,24 @@ class Kind(ABC, Generic[Task, D]):
     @abstractmethod
     def memory_of(self, task: Task, design: D) -> Memory:
         """Return the memory that a task takes, without that of the process."""
+
+    def least_memory_of(self, task: Task, design: D) -> Memory:
+        """Return the memory that a task can do with: where it can be done in stages, of a job."""
+        return self.memory_of(task, design)
+
+    def in_stages(self, task: Task, design: D, directory: Path, memory: int) -> StagedTask | None:
+        """Return a task as stages of jobs; None if it can only be done at once.
+
+        Parameters
+        ----------
+        task : Task
+        design : D
+        directory : Path
+            For its files; of this task alone, and there.
+        memory : int
+            Bytes that a job may take.
+        """
+        return None
 
     @abstractmethod
     def prepare(self) -> None:

@@ -4,6 +4,7 @@ import logging
 import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from math import inf
 from multiprocessing import resource_tracker
 from threading import Thread
 from time import monotonic
@@ -34,9 +35,12 @@ _SETTINGS = {
     # A new worker may take longer than the 15 seconds after which Dask gives it up; those that
     # will never come are found below.
     "distributed.deploy.lost-worker-timeout": f"{REPLACE_SECONDS}s",
-    # Dask has the C library hand freed memory back at once, so that each task's arrays would be
-    # mapped and cleared anew; here one task's arrays are as large as the last one's. The second
-    # is the most that the library takes.
+}
+
+#: Dask has the C library hand freed memory back at once, so that each task's arrays would be
+#: mapped and cleared anew; here one task's arrays are as large as the last one's. The second is the
+#: most that the library takes. Not where memory is scarce.
+_KEEPING_MEMORY = {
     "distributed.nanny.pre-spawn-environ.MALLOC_TRIM_THRESHOLD_": 1 << 28,
     "distributed.nanny.pre-spawn-environ.MALLOC_MMAP_THRESHOLD_": 1 << 25,
 }
@@ -55,6 +59,8 @@ class LocalWorkers(Workers):
         Workers that it is to have.
     memory : int, optional
         Bytes for all tasks together.
+    largest : float
+        Bytes for a task.
     """
 
     ahead = 3
@@ -65,8 +71,9 @@ class LocalWorkers(Workers):
         cluster: Any,  # noqa: ANN401 - as `_distributed`
         n_workers: int,
         memory: int | None = None,
+        largest: float = inf,
     ) -> None:
-        self.client, self.memory = client, memory
+        self.client, self.memory, self.largest = client, memory, largest
         self._cluster, self._n_workers = cluster, n_workers
         self._looked = -_LOOK_SECONDS
 
@@ -94,7 +101,12 @@ class LocalWorkers(Workers):
 
 @contextmanager
 def local(
-    n_workers: int, memory: int, *, dashboard: bool, note: Callable[[str], None]
+    n_workers: int,
+    memory: int,
+    *,
+    worker_memory: int | None = None,
+    dashboard: bool,
+    note: Callable[[str], None],
 ) -> Iterator[LocalWorkers]:
     """Start workers with one thread each.
 
@@ -103,7 +115,9 @@ def local(
     n_workers : int
         Worker processes.
     memory : int
-        Bytes for all tasks together.
+        Bytes for all tasks together, or for one if workers have a limit.
+    worker_memory : int, optional
+        Limit of each worker in bytes; none if not given.
     dashboard : bool
         Whether to serve Dask's dashboard.
     note : callable
@@ -114,7 +128,8 @@ def local(
     InputError
         If they do not start.
     """
-    with dask.config.set(_SETTINGS):
+    keeping = _KEEPING_MEMORY if worker_memory is None else {}
+    with dask.config.set(_SETTINGS | keeping):
         try:
             with _without_interrupts():
                 cluster = _distributed.LocalCluster(
@@ -123,7 +138,7 @@ def local(
                     processes=True,  # each with a nanny, which replaces it when it dies
                     host="127.0.0.1",
                     # How many tasks fit side by side is planned: a large one may have it all.
-                    memory_limit=free_memory(),
+                    memory_limit=worker_memory or free_memory(),
                     silence_logs=logging.CRITICAL,
                     **_dashboard_options(dashboard),
                 )
@@ -137,7 +152,10 @@ def local(
             client = _distributed.Client(cluster)
             if dashboard:
                 note(f"Dask's dashboard: {cluster.dashboard_link}")
-            yield LocalWorkers(client, cluster, n_workers, memory)
+            if worker_memory is None:
+                yield LocalWorkers(client, cluster, n_workers, memory, memory)
+            else:
+                yield LocalWorkers(client, cluster, n_workers, None, memory)
         finally:
             # The workers take a while to end, in which the report can be written; Python waits
             # for this thread before it exits.

@@ -8,6 +8,9 @@ from distributed.system import MEMORY_LIMIT
 from lepp import InputError
 from study.run.kinds import Kind
 
+#: What Dask's nanny leaves a worker of its limit: it kills it at 95 %.
+USABLE = 0.9
+
 
 def free_memory() -> int:
     """Return the bytes that are free on this computer.
@@ -32,7 +35,8 @@ def check_memory(kind: Kind, design: Any, available: float, whose: str) -> None:
         Whose memory that is: the subject and verb of a sentence that ends in the bytes.
     """
     tasks = kind.tasks_of(design)
-    what, needed = max((kind.memory_of(task, design) for task in tasks), key=lambda m: m.n_bytes)
+    least = (kind.least_memory_of(task, design) for task in tasks)
+    what, needed = max(least, key=lambda m: m.n_bytes)
     if needed > available:
         base = kind.base_memory
         raise InputError(

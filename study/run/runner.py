@@ -1,7 +1,7 @@
 """Run a design: stream its tasks to the workers, keep what comes back, try again what fails."""
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import inf
 from pathlib import Path
@@ -13,7 +13,7 @@ from distributed import Future, KilledWorker, as_completed, get_worker
 from study.results.store import Store
 from study.run.batches import Batch, Batches, Load
 from study.run.cluster import ClusterOptions, check_request, connect
-from study.run.kinds import Kind, Outcome, Size
+from study.run.kinds import Kind, Outcome, Size, StagedTask
 from study.run.memory import in_words
 from study.run.waiting import RunStoppedError, Waiting
 from study.run.workers import Workers
@@ -22,6 +22,11 @@ from study.run.workers import Workers
 ATTEMPTS = 3
 
 _POLL_SECONDS = 0.01
+
+#: Where, in a results directory, tasks that are done in stages keep their files.
+STAGES = "stages"
+#: What a worker is taken to have as long as there is none to be asked.
+_TYPICAL_MEMORY = 4e9
 
 _LOST = "The connection to the scheduler was lost"
 
@@ -147,20 +152,62 @@ def compute(
     kind, design = store.kind, store.design
     todo = Size.total(kind.size_of(task, design) for task in store.unfinished)
     whole = Size.total(kind.size_of(task, design) for task in store.tasks)
-    course = _Course(workers, store)
-    begun = False
+    workers.look()
+    staged = _staged(workers, store)
+    course = _Course(
+        workers, [t for t in store.unfinished if t not in staged], _Tasks(kind, design)
+    )
+    course.send()
+    listener.begin(kind.units, todo, whole, workers.now)
+    for outcomes in _arrivals(course, workers, waiting):
+        yield from store.add(outcomes)
+    for task, parts in staged.items():
+        error = _perform_stages(parts, workers, waiting, listener)
+        outcome = parts.outcome() if error is None else kind.failed(task, design, error)
+        yield from store.add([outcome])
+        parts.close()
+
+
+def _staged(workers: Workers, store: Store) -> dict[Any, StagedTask]:
+    """Return the unfinished tasks that are too large for the workers, if they can be parted."""
+    largest = workers.largest if workers.now else _TYPICAL_MEMORY
+    each = largest if workers.memory is None else min(largest, workers.memory / workers.now)
+    staged = {}
+    for task in store.unfinished:
+        if store.kind.memory_of(task, store.design).n_bytes > largest:
+            directory = store.directory / STAGES / "-".join(map(str, task))
+            parts = store.kind.in_stages(task, store.design, directory, int(each))
+            if parts is not None:
+                staged[task] = parts
+    return staged
+
+
+def _perform_stages(
+    parts: StagedTask, workers: Workers, waiting: Waiting, listener: Listener
+) -> str | None:
+    """Do all jobs of a task; return why one could not be done, None if all were."""
+    for stage in parts.stages():
+        if stage.jobs:
+            listener.note(f"{stage.words}.")
+        course = _Course(workers, stage.jobs, _Jobs(parts, stage.name))
+        for outcomes in _arrivals(course, workers, waiting):
+            for outcome in outcomes:
+                if outcome.error is not None:
+                    return outcome.error
+    return None
+
+
+def _arrivals(course: "_Course", workers: Workers, waiting: Waiting) -> Iterator[list[Outcome]]:
+    """Send what is left and yield what comes back, until nothing is left."""
     while True:
         missing = workers.look()
         course.send()
-        if not begun:
-            listener.begin(kind.units, todo, whole, workers.now)
-            begun = True
         if course.ended:
             return
         arrived = False
         for outcomes in course.arrivals():
             arrived = True
-            yield from store.add(outcomes)
+            yield outcomes
         if workers.client.status != "running":
             raise RunStoppedError(_LOST)
         waiting.look(None if arrived else missing or course.missing())
@@ -168,12 +215,61 @@ def compute(
             sleep(_POLL_SECONDS)
 
 
-class _Course:
-    """The batches of a run on their way to workers and back."""
+class Work(Protocol):
+    """What a course has workers do; picklable."""
 
-    def __init__(self, workers: Workers, store: Store) -> None:
-        self._workers, self._kind, self._design = workers, store.kind, store.design
-        self._batches = Batches(store.unfinished, self._load_of, workers.memory)
+    def perform(self, task: Any) -> Outcome:  # noqa: ANN401 - of the kind's own type, or a job
+        """Perform a task."""
+
+    def failed(self, task: Any, error: str) -> Outcome:  # noqa: ANN401 - as above
+        """Return the outcome of a task that gave nothing at all."""
+
+    def load_of(self, task: Any) -> Load:  # noqa: ANN401 - as above
+        """Return what a task asks of a worker."""
+
+
+@dataclass(frozen=True)
+class _Tasks:
+    """Tasks of a design."""
+
+    kind: Kind
+    design: Any
+
+    def perform(self, task: Any) -> Outcome:  # noqa: ANN401 - of the kind's own type
+        return self.kind.perform(task, self.design)
+
+    def failed(self, task: Any, error: str) -> Outcome:  # noqa: ANN401 - as above
+        return self.kind.failed(task, self.design, error)
+
+    def load_of(self, task: Any) -> Load:  # noqa: ANN401 - as above
+        memory = self.kind.memory_of(task, self.design).n_bytes
+        return Load(self.kind.size_of(task, self.design).work, memory)
+
+
+@dataclass(frozen=True)
+class _Jobs:
+    """Jobs of a stage of a task."""
+
+    parts: StagedTask
+    stage: str
+
+    def perform(self, task: int) -> Outcome:
+        self.parts.perform(self.stage, task)
+        return Outcome((task,))
+
+    def failed(self, task: int, error: str) -> Outcome:
+        return Outcome((task,), error=error)
+
+    def load_of(self, task: int) -> Load:
+        return Load(1, self.parts.memory)
+
+
+class _Course:
+    """The batches of some tasks on their way to workers and back."""
+
+    def __init__(self, workers: Workers, tasks: Iterable[Any], work: Work) -> None:
+        self._workers, self._work = workers, work
+        self._batches = Batches(tasks, work.load_of, workers.memory)
         self._attempts: Counter[Any] = Counter()
         # Typed Any because this class of distributed has no annotations.
         self._futures: Any = cast(Any, as_completed)(
@@ -214,7 +310,7 @@ class _Course:
             if future not in self._batches.under_way:
                 continue  # it was sent once more
             batch = self._batches.end(future)
-            done = _done(future, result, batch.tasks, self._kind, self._design)
+            done = _done(future, result, batch.tasks, self._work)
             if done is None:
                 if self._workers.client.status == "running":
                     self._send(batch)
@@ -237,17 +333,12 @@ class _Course:
         future = self._workers.client.submit(
             perform_batch,
             batch.tasks,
-            self._kind,
-            self._design,
+            self._work,
             pure=False,  # a name of its own, whatever else runs at this scheduler
             resources=self._workers.resources(batch.memory),
         )
         self._batches.begin(future, batch)
         self._futures.add(future)
-
-    def _load_of(self, task: Any) -> Load:  # noqa: ANN401 - of the kind's own type
-        memory = self._kind.memory_of(task, self._design).n_bytes
-        return Load(self._kind.size_of(task, self._design).work, memory)
 
 
 class Done(NamedTuple):
@@ -265,33 +356,27 @@ class Done(NamedTuple):
     seconds: float
 
 
-def perform_batch(tasks: Sequence[Any], kind: Kind, design: Any) -> Done:  # noqa: ANN401 - of the kind's own type
+def perform_batch(tasks: Sequence[Any], work: Work) -> Done:
     """Perform tasks one after the other on a worker; an error is the outcome of its task alone."""
     start = perf_counter()
     worker = get_worker().address
     outcomes = []
     for task in tasks:
         try:
-            outcome = kind.perform(task, design)
+            outcome = work.perform(task)
         except Exception as error:
-            outcome = kind.failed(task, design, _in_words(error))
+            outcome = work.failed(task, _in_words(error))
         outcomes.append(replace(outcome, worker=worker))
     return Done(outcomes, perf_counter() - start)
 
 
-def _done(
-    future: Future,
-    result: object,
-    tasks: Sequence[Any],
-    kind: Kind,
-    design: Any,  # noqa: ANN401 - of the kind's own type
-) -> Done | None:
+def _done(future: Future, result: object, tasks: Sequence[Any], work: Work) -> Done | None:
     """Return what a batch gave; None if its worker left with it, or the scheduler was lost."""
     if future.status == "finished":
         return cast(Done, result)
     if future.status == "error":
         _, error, _ = cast(tuple[type, BaseException, object], result)
-        return Done([kind.failed(task, design, _in_words(error)) for task in tasks], 0.0)
+        return Done([work.failed(task, _in_words(error)) for task in tasks], 0.0)
     return None
 
 

@@ -7,9 +7,8 @@ the disk once, by tile: drawing them for each tile would take longer than readin
 
 import pickle
 import shutil
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import partial
 from itertools import pairwise
 from pathlib import Path
 from time import perf_counter
@@ -29,19 +28,20 @@ from study.design.sampling import BLOCK, Points, sample_block
 from study.results.files import replacing
 from study.run.checks_of_blocks import checks_of_blocks, extract, histogram, plan_checks
 from study.run.counted import Counted
+from study.run.kinds import Stage
 from study.run.point_checks import PointChecks
 
 #: Points that the first hull, and the choice of the tiles, are made from.
-OPENING = 1 << 18
+OPENING = 1 << 17
 #: Most points that are worked on together.
 _TOGETHER = 1 << 21
 #: Bytes that a job takes for each of its points, the peak of all stages as measured.
 _BYTES_PER_POINT = 330
 #: Bytes that it takes besides: the opening is triangulated.
-_BYTES_BESIDE = 80_000_000
+_BYTES_BESIDE = 50_000_000
 
 #: The least memory that a job can do with.
-LEAST_MEMORY = 160_000_000
+LEAST_MEMORY = 80_000_000
 
 
 @dataclass(frozen=True)
@@ -66,12 +66,8 @@ class TiledInsertion:
     directory: Path
     memory: int
 
-    def stages(self) -> Iterator[tuple[str, list[Callable[[], None]]]]:
-        """Yield what is done, stage by stage: words, and the jobs that are left of it.
-
-        The jobs of a stage can be done in any order, and side by side; all must be done before the
-        next stage is asked for.
-        """
+    def stages(self) -> Iterator[Stage]:
+        """Yield what is done, stage by stage."""
         yield self._stage("hull", "Finding the hull of the first points", [0])
         yield self._stage("outside", "Looking for points outside it", self._blocks)
         yield self._stage("coarse", "Choosing tiles", [0])
@@ -136,11 +132,12 @@ class TiledInsertion:
                     total[what] = total.get(what, 0.0) + seconds
         return total
 
-    def _stage(
-        self, name: str, words: str, jobs: Iterable[int]
-    ) -> tuple[str, list[Callable[[], None]]]:
-        left = [job for job in jobs if not self._path(name, job).exists()]
-        return words, [partial(getattr(self, f"_{name}"), job) for job in left]
+    def perform(self, name: str, job: int) -> None:
+        """Do a job of a stage."""
+        getattr(self, f"_{name}")(job)
+
+    def _stage(self, name: str, words: str, jobs: Iterable[int]) -> Stage:
+        return Stage(name, words, [job for job in jobs if not self._path(name, job).exists()])
 
     def _hull(self, job: int) -> None:
         """Find the hull of the opening."""
@@ -284,7 +281,7 @@ class TiledInsertion:
         return fine_mesh(self._load("coarse", 0), first, collect(pieces))
 
     def _parts(self) -> Iterator[tuple[int, int]]:
-        """Yield the parts in which blocks are sent to their tiles: a block, and where one begins."""
+        """Yield the parts of blocks that are sent to their tiles: a block, where one begins."""
         for block in self._blocks:
             for begin in range(0, min(BLOCK, self.n_points - block * BLOCK), self._together):
                 yield block, begin

@@ -1,7 +1,10 @@
 """The kind of task of the paper: a point set, triangulated by every method of the design."""
 
-from collections.abc import Mapping, Sequence
+import shutil
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import astuple, dataclass
+from pathlib import Path
 from time import perf_counter
 from typing import NamedTuple
 
@@ -13,9 +16,10 @@ import lepp
 from study.design.design import Design
 from study.design.sampling import Points, sample_points
 from study.run.counted import Counted
-from study.run.kinds import ERROR, WORKER, Cells, Kind, Memory, Outcome, ResultTable, Size
+from study.run.kinds import ERROR, WORKER, Cells, Kind, Memory, Outcome, ResultTable, Size, Stage
 from study.run.measures import columns_of, fields_of, measure, measured
 from study.run.point_checks import PointChecks, check_randomness
+from study.run.tiled_insertion import LEAST_MEMORY, TiledInsertion
 
 #: Memory that a triangulation takes, checks and paths included, as measured for 4 million points.
 BYTES_PER_POINT = {"incremental": 158, "delaunay": 162}
@@ -161,6 +165,21 @@ class Triangulations(Kind[Task, Design]):
         each = max(BYTES_PER_POINT[method] for method in design.methods)
         return Memory(f"A triangulation of {n:,} points", n * each)
 
+    def least_memory_of(self, task: Task, design: Design) -> Memory:
+        """Return what a job of it takes, where plain insertion alone is asked for."""
+        whole = self.memory_of(task, design)
+        if design.methods != ("incremental",) or whole.n_bytes <= LEAST_MEMORY:
+            return whole
+        return Memory("A triangulation in tiles", LEAST_MEMORY)
+
+    def in_stages(
+        self, task: Task, design: Design, directory: Path, memory: int
+    ) -> "StagedTriangulation | None":
+        """Return a plain insertion in tiles; None for other methods."""
+        if design.methods != ("incremental",):
+            return None
+        return StagedTriangulation(task, design, directory, max(memory, LEAST_MEMORY))
+
     def prepare(self) -> None:
         """Compile the kernels, or load them."""
         lepp.compile_kernels()
@@ -233,6 +252,57 @@ class Triangulations(Kind[Task, Design]):
 
     def _without_measures(self, method: str, error: str) -> Cells:
         return (method, *[None] * len(columns_of(self.measures)), error)
+
+
+@dataclass(frozen=True)
+class StagedTriangulation:
+    """A point set whose plain insertion takes more memory than a worker has.
+
+    Attributes
+    ----------
+    task : Task
+    design : Design
+    directory : Path
+    memory : int
+        As for `Triangulations.in_stages`.
+    """
+
+    task: Task
+    design: Design
+    directory: Path
+    memory: int
+
+    @property
+    def _insertion(self) -> TiledInsertion:
+        seed, correlation = self.design.seed, self.design.correlation
+        return TiledInsertion(*self.task, seed, correlation, self.directory, self.memory)
+
+    def stages(self) -> Iterator[Stage]:
+        """Yield the stages, once there is room for them."""
+        self.directory.mkdir(parents=True, exist_ok=True)
+        self._insertion.check_disk()
+        yield from self._insertion.stages()
+
+    def perform(self, name: str, job: int) -> None:
+        """Do a job."""
+        self._insertion.perform(name, job)
+
+    def outcome(self) -> Outcome[Task]:
+        """Return the same rows as `Triangulations.perform`."""
+        checks, counted, spent = self._insertion.result()
+        rows = TRIANGULATIONS.rows_of("incremental", counted)
+        rows["point_sets"] = [astuple(checks)]
+        rows["timings"] = [
+            ("" if stage in ("sample", "check") else "incremental", stage, seconds)
+            for stage, seconds in spent.items()
+        ]
+        return Outcome(self.task, rows, sum(spent.values()))
+
+    def close(self) -> None:
+        """Remove the files, and the directory of all such tasks with the last of them."""
+        shutil.rmtree(self.directory, ignore_errors=True)
+        with suppress(OSError):
+            self.directory.parent.rmdir()
 
 
 class _Stages:
