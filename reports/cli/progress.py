@@ -153,6 +153,8 @@ class TerminalProgress:
     def __init__(self, bars: Progress) -> None:
         self._bars = bars
         self._bar: TaskID | None = None
+        #: Work of the next task that is done.
+        self._of_next = 0
 
     def begin(self, units: tuple[str, str], unfinished: Size, whole: Size, n_threads: int) -> None:
         """Start the bar."""
@@ -166,8 +168,17 @@ class TerminalProgress:
 
     def advance(self, outcome: Outcome, size: Size) -> None:
         """Move the bar by the work of a task."""
+        self._advance(size.work - self._of_next)
+        self._of_next = 0
+
+    def part(self, work: int) -> None:
+        """Move the bar by a part of the next task."""
+        self._of_next += work
+        self._advance(work)
+
+    def _advance(self, work: int) -> None:
         assert self._bar is not None, "begin comes first"
-        self._pace.advance(size.work)
+        self._pace.advance(work)
         self._bars.update(self._bar, completed=self._pace.done)
         if sentence := self._prospect.sentence():
             self.note(sentence)
@@ -186,13 +197,23 @@ class PlainProgress:
         self._prospect = Prospect(self._pace, n_threads)
         self._work = units[1]
         self._printed, self._last = 0, monotonic()
+        self._of_next = 0  # work of the next task that is done
         click.echo(_plan(units, unfinished, whole))
         _load_report()
 
     def advance(self, outcome: Outcome, size: Size) -> None:
         """Count the work of a task; print a line if it is time."""
+        self._advance(size.work - self._of_next)
+        self._of_next = 0
+
+    def part(self, work: int) -> None:
+        """Count a part of the next task."""
+        self._of_next += work
+        self._advance(work)
+
+    def _advance(self, work: int) -> None:
         pace = self._pace
-        pace.advance(size.work)
+        pace.advance(work)
         if sentence := self._prospect.sentence():
             self.note(sentence)
         now = monotonic()

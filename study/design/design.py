@@ -21,11 +21,12 @@ from pydantic import (
 from pydantic_core import ErrorDetails, PydanticCustomError
 
 from lepp import METHODS, InputError
+from lepp.mesh.triangulation import MAX_POINTS as MESH_MAX_POINTS
 from study.design.sampling import DISTRIBUTIONS
 
 MIN_POINTS = 3
-#: A triangulation of n points makes up to 4 n edges, whose sides are numbered by 32-bit integers.
-MAX_POINTS = (2**31 - 1) // 8
+#: Plain insertion in tiles has no limit of its own; this is some days of work.
+MAX_POINTS = 10**10
 #: More rows than this do not belong into one directory (a row and its histograms take 1 to 2 kB).
 MAX_TRIANGULATIONS = 1_000_000
 #: The largest whole number that a TOML file can hold.
@@ -35,6 +36,10 @@ DEFAULT_SEED = 2022
 
 #: The error of a list of repetitions that is longer or shorter than that of the sizes.
 _ONE_A_SIZE = "one_a_size"
+#: The error of a size that a method cannot do, as it has the whole mesh in memory.
+_IN_MEMORY = "in_memory"
+#: The methods that can do without.
+IN_TILES = ("incremental",)
 
 _ALLOWED = {
     "methods": f"a list with one or more of {', '.join(METHODS)}",
@@ -123,6 +128,12 @@ class Design(BaseModel):
     def _check_one_a_size(self) -> Self:
         if isinstance(self.repetitions, tuple) and len(self.repetitions) != len(self.sizes):
             raise PydanticCustomError(_ONE_A_SIZE, "repetitions")
+        return self
+
+    @model_validator(mode="after")
+    def _check_in_memory(self) -> Self:
+        if self.methods != IN_TILES and max(self.sizes) > MESH_MAX_POINTS:
+            raise PydanticCustomError(_IN_MEMORY, "sizes", {"size": max(self.sizes)})
         return self
 
     @field_validator("sizes", mode="before")
@@ -279,6 +290,11 @@ def _sentence(where: str, error: ErrorDetails) -> str:
         return (
             f"{where} does not have one number among its repetitions for each of its sizes: give "
             "one for all sizes, or a list as long as theirs, with no size twice."
+        )
+    if error["type"] == _IN_MEMORY:
+        return (
+            f"{where} has {error['ctx']['size']:,} points among its sizes, but a mesh in memory "
+            f"has at most {MESH_MAX_POINTS:,}: only methods = {list(IN_TILES)} goes without."
         )
     name = str(error["loc"][0])
     if error["type"] == "extra_forbidden":

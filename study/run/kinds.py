@@ -130,11 +130,14 @@ class Stage(NamedTuple):
         What is done, as a sentence without its full stop.
     jobs : list of int
         Those that are left to do.
+    share : float
+        The share of the task's time that each of them takes.
     """
 
     name: str
     words: str
     jobs: list[int]
+    share: float
 
 
 class StagedTask(Protocol):
@@ -214,6 +217,10 @@ class Kind(ABC, Generic[Task, D]):
     @abstractmethod
     def memory_of(self, task: Task, design: D) -> Memory:
         """Return the memory that a task takes, without that of the process."""
+
+    def is_at_once(self, task: Task, design: D, memory: float) -> bool:
+        """Tell whether a task can be done at once where it may take some bytes."""
+        return self.memory_of(task, design).n_bytes <= memory
 
     def least_memory_of(self, task: Task, design: D) -> Memory:
         """Return the memory that a task can do with: where it can be done in stages, of a job."""

@@ -44,6 +44,9 @@ class Listener(Protocol):
     def advance(self, outcome: Outcome, size: Size) -> None:
         """Hear of a task that was computed, or has failed for the last time, and of its size."""
 
+    def part(self, work: int) -> None:
+        """Hear of work that is done of the task that comes next to `advance`."""
+
     def note(self, sentence: str) -> None:
         """Hear of something out of the ordinary."""
 
@@ -162,7 +165,8 @@ def compute(
     for outcomes in _arrivals(course, workers, waiting):
         yield from store.add(outcomes)
     for task, parts in staged.items():
-        error = _perform_stages(parts, workers, waiting, listener)
+        work = kind.size_of(task, design).work
+        error = _perform_stages(parts, work, workers, waiting, listener)
         outcome = parts.outcome() if error is None else kind.failed(task, design, error)
         yield from store.add([outcome])
         parts.close()
@@ -174,7 +178,7 @@ def _staged(workers: Workers, store: Store) -> dict[Any, StagedTask]:
     each = largest if workers.memory is None else min(largest, workers.memory / workers.now)
     staged = {}
     for task in store.unfinished:
-        if store.kind.memory_of(task, store.design).n_bytes > largest:
+        if not store.kind.is_at_once(task, store.design, largest):
             directory = store.directory / STAGES / "-".join(map(str, task))
             parts = store.kind.in_stages(task, store.design, directory, int(each))
             if parts is not None:
@@ -183,17 +187,19 @@ def _staged(workers: Workers, store: Store) -> dict[Any, StagedTask]:
 
 
 def _perform_stages(
-    parts: StagedTask, workers: Workers, waiting: Waiting, listener: Listener
+    parts: StagedTask, work: int, workers: Workers, waiting: Waiting, listener: Listener
 ) -> str | None:
-    """Do all jobs of a task; return why one could not be done, None if all were."""
+    """Do all jobs of a task of some work; return why one could not be done, None if all were."""
     for stage in parts.stages():
         if stage.jobs:
             listener.note(f"{stage.words}.")
-        course = _Course(workers, stage.jobs, _Jobs(parts, stage.name))
+        jobs = [(job,) for job in stage.jobs]
+        course = _Course(workers, jobs, _Jobs(parts, stage.name))
         for outcomes in _arrivals(course, workers, waiting):
             for outcome in outcomes:
                 if outcome.error is not None:
                     return outcome.error
+                listener.part(int(stage.share * work))
     return None
 
 
@@ -253,14 +259,14 @@ class _Jobs:
     parts: StagedTask
     stage: str
 
-    def perform(self, task: int) -> Outcome:
-        self.parts.perform(self.stage, task)
-        return Outcome((task,))
+    def perform(self, task: tuple[int]) -> Outcome:
+        self.parts.perform(self.stage, *task)
+        return Outcome(task)
 
-    def failed(self, task: int, error: str) -> Outcome:
-        return Outcome((task,), error=error)
+    def failed(self, task: tuple[int], error: str) -> Outcome:
+        return Outcome(task, error=error)
 
-    def load_of(self, task: int) -> Load:
+    def load_of(self, task: tuple[int]) -> Load:
         return Load(1, self.parts.memory)
 
 

@@ -7,7 +7,7 @@ the disk once, by tile: drawing them for each tile would take longer than readin
 
 import pickle
 import shutil
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -26,7 +26,7 @@ from lepp.tiles.location import PLACED, locate
 from lepp.tiles.measuring import TileCounts, tile_counts
 from study.design.sampling import BLOCK, Points, sample_block
 from study.results.files import replacing
-from study.run.checks_of_blocks import checks_of_blocks, extract, histogram, plan_checks
+from study.run.checks_of_blocks import Histogram, checks_of_blocks, extract, histogram, plan_checks
 from study.run.counted import Counted
 from study.run.kinds import Stage
 from study.run.point_checks import PointChecks
@@ -68,15 +68,15 @@ class TiledInsertion:
 
     def stages(self) -> Iterator[Stage]:
         """Yield what is done, stage by stage."""
-        yield self._stage("hull", "Finding the hull of the first points", [0])
-        yield self._stage("outside", "Looking for points outside it", self._blocks)
-        yield self._stage("coarse", "Choosing tiles", [0])
-        yield self._stage("locate", "Sending the points to their tiles", self._blocks)
-        yield self._stage("groups", "Counting them", [0])
+        yield self._stage("hull", "Finding the hull of the first points", range(1))
+        yield self._stage("outside", "Looking for points outside it", self._blocks, 0.07)
+        yield self._stage("coarse", "Choosing tiles", range(1))
+        yield self._stage("locate", "Sending the points to their tiles", self._blocks, 0.34)
+        yield self._stage("groups", "Counting them", range(1))
         groups = range(self._load("groups", 0))
-        yield self._stage("cross", "Triangulating tiles", groups)
-        yield self._stage("beyond", "Joining them", [0])
-        yield self._stage("count", "Triangulating and counting tiles", groups)
+        yield self._stage("cross", "Triangulating tiles", groups, 0.25)
+        yield self._stage("beyond", "Joining them", range(1))
+        yield self._stage("count", "Triangulating and counting tiles", groups, 0.34)
 
     def check_disk(self) -> None:
         """Raise `InputError` if the disk has no room for the points that are still to be sent."""
@@ -136,8 +136,9 @@ class TiledInsertion:
         """Do a job of a stage."""
         getattr(self, f"_{name}")(job)
 
-    def _stage(self, name: str, words: str, jobs: Iterable[int]) -> Stage:
-        return Stage(name, words, [job for job in jobs if not self._path(name, job).exists()])
+    def _stage(self, name: str, words: str, jobs: range, share: float = 0.0) -> Stage:
+        left = [job for job in jobs if not self._path(name, job).exists()]
+        return Stage(name, words, left, share / len(jobs))
 
     def _hull(self, job: int) -> None:
         """Find the hull of the opening."""
@@ -165,22 +166,26 @@ class TiledInsertion:
         clock = _Clock()
         opening = self._block(0)[:OPENING]
         clock.end("sample")
-        found = [self._load("outside", block) for block in self._blocks]
-        bins = found[0][2]
-        for *_, more in found[1:]:
-            bins += more
+        points, indices = [opening], [np.arange(len(opening))]
+        bins: Histogram | None = None
+        for block in self._blocks:
+            outer, numbers, of_block = self._load("outside", block)
+            points.append(outer)
+            indices.append(numbers)
+            bins = of_block if bins is None else bins + of_block
+        assert bins is not None, "a set has a block"
+        plan = plan_checks(bins)
         clock.end("check")
-        points = np.concatenate((opening, *(outer for outer, *_ in found)))
-        indices = np.concatenate((np.arange(len(opening)), *(numbers for _, numbers, _ in found)))
+        candidates = np.concatenate(points), np.concatenate(indices)
         n_first = 16
         while True:
-            coarse = coarse_mesh(points, indices, n_first)
+            coarse = coarse_mesh(*candidates, n_first)
             most = locate(coarse, opening, 0).counts.max() * self.n_points / len(opening)
             if most <= self._together / 2 or 2 * n_first > len(opening):
                 break
             n_first *= 2
         clock.end("triangulate")
-        self._save("plan", job, plan_checks(bins), _Clock())
+        self._save("plan", job, plan)
         self._save("coarse", job, coarse, clock)
 
     def _locate(self, block: int) -> None:

@@ -13,7 +13,8 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 import lepp
-from study.design.design import Design
+from lepp.mesh.triangulation import MAX_POINTS
+from study.design.design import IN_TILES, Design
 from study.design.sampling import Points, sample_points
 from study.run.counted import Counted
 from study.run.kinds import ERROR, WORKER, Cells, Kind, Memory, Outcome, ResultTable, Size, Stage
@@ -165,10 +166,14 @@ class Triangulations(Kind[Task, Design]):
         each = max(BYTES_PER_POINT[method] for method in design.methods)
         return Memory(f"A triangulation of {n:,} points", n * each)
 
+    def is_at_once(self, task: Task, design: Design, memory: float) -> bool:
+        """Tell whether a mesh can have the points, and fits into memory."""
+        return task.n_points <= MAX_POINTS and super().is_at_once(task, design, memory)
+
     def least_memory_of(self, task: Task, design: Design) -> Memory:
         """Return what a job of it takes, where plain insertion alone is asked for."""
         whole = self.memory_of(task, design)
-        if design.methods != ("incremental",) or whole.n_bytes <= LEAST_MEMORY:
+        if design.methods != IN_TILES or whole.n_bytes <= LEAST_MEMORY:
             return whole
         return Memory("A triangulation in tiles", LEAST_MEMORY)
 
@@ -176,7 +181,7 @@ class Triangulations(Kind[Task, Design]):
         self, task: Task, design: Design, directory: Path, memory: int
     ) -> "StagedTriangulation | None":
         """Return a plain insertion in tiles; None for other methods."""
-        if design.methods != ("incremental",):
+        if design.methods != IN_TILES:
             return None
         return StagedTriangulation(task, design, directory, max(memory, LEAST_MEMORY))
 

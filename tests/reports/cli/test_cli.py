@@ -187,7 +187,7 @@ def test_a_report_that_cannot_be_written_is_one_sentence(results, monkeypatch):
 
 def test_a_design_that_does_not_fit_leaves_no_directory(tmp_path):
     config = tmp_path / "huge.toml"
-    config.write_text("sizes = [268_000_000]\nrepetitions = 1\n")
+    config.write_text('methods = ["delaunay"]\nsizes = [268_000_000]\nrepetitions = 1\n')
     result = lepp_study("run", tmp_path / "out", "--config", config, "--workers", "1000")
     assert result.exit_code == 2
     assert "A triangulation of 268,000,000 points takes about" in result.output

@@ -22,6 +22,7 @@ class Heard:
 
     def __init__(self, act=None, after=1):
         self.tasks, self.notes, self.act, self.after = [], [], act, after
+        self.parts = 0
 
     def begin(self, units, unfinished, whole, n_threads):
         self.units, self.unfinished, self.whole = units, unfinished, whole
@@ -30,6 +31,9 @@ class Heard:
         self.tasks.append(outcome.task)
         if self.act and len(self.tasks) == self.after:
             self.act()
+
+    def part(self, work):
+        self.parts += work
 
     def note(self, sentence):
         self.notes.append(sentence)
