@@ -100,12 +100,11 @@ DEFINITIONS: dict[str, frozenset[str]] = {
     ),
     "what the page does, and why": frozenset(
         {
+            "Figure N and Table 7 have it for the comparison with the paper; all else on this page "
+            "goes by weighted fits, which do not suppose it.",
             "Figure N shows the means of all distributions.",
             "Delaunay triangulations are other meshes: that they differ is no failure to "
             "reproduce.",
-            "Least squares takes all variances to be equal, which they are not: Figure N and "
-            "Table 7 have it for the comparison with the paper, and all else on this page goes "
-            "by weighted fits.",
             "The plain insertion method, the paper's, inserts the points as they come and never "
             "flips an edge; the Delaunay method makes triangles that are as far from thin as "
             "the points allow.",

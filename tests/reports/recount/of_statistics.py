@@ -57,6 +57,19 @@ def variances(v: View, s: Sheet, k: int) -> str:
     )
 
 
+@recount("table-7", "Least squares takes")
+def equal_variances(v: View, s: Sheet, k: int) -> str:
+    p = [log10_f_tail(*levene(values(v), center)) for center in ("mean", "median")]
+    unequal = [one < np.log10(0.05) for one in p]
+    verb = "rejects" if all(unequal) else "does not reject"
+    found = (
+        "which Levene's test rejects about one centre of the groups but not the other"
+        if any(unequal) and not all(unequal)
+        else f"which Levene's test {verb} ({s.p_is(p[0])})"
+    )
+    return f"Least squares takes all variances to be equal, {found}."
+
+
 @recount("assumptions", "The spread between triangulations")
 def spread(v: View, s: Sheet, k: int) -> str:
     sd = [g.std(ddof=1) for g in values(v)]

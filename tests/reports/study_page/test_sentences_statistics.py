@@ -152,6 +152,29 @@ def test_equal_variances(name):
     ) in said
 
 
+def test_equal_variances_about_one_centre_only():
+    mean, median = (stats.levene(*groups("skewed"), center=c) for c in ("mean", "median"))
+    assert mean.pvalue < 0.05 < median.pvalue
+    assert (
+        "Whether the groups' variances are equal depends on the centre: "
+        f"Levene's F(3, 28) is {mean.statistic:.2f}, p = {p_text(mean.pvalue)}."
+    ) in page("skewed").prose("assumptions")
+
+
+@pytest.mark.parametrize(
+    ("name", "found"),
+    [
+        ("narrowing", "which Levene's test rejects (p = {})"),
+        ("level", "which Levene's test does not reject (p = {})"),
+        ("skewed", "which Levene's test rejects about one centre of the groups but not the other"),
+    ],
+)
+def test_what_least_squares_supposes(name, found):
+    p = stats.levene(*groups(name), center="mean").pvalue
+    said = page(name).prose("table-7")
+    assert f"all variances to be equal, {found.format(p_text(p))}. " in said
+
+
 @pytest.mark.parametrize("name", ["drawn", "out of bounds"])
 def test_normal_groups(name):
     p = np.array([stats.shapiro(s).pvalue for s in groups(name)])
