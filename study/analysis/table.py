@@ -44,12 +44,16 @@ class Column:
         that is good or bad news), ``int``, ``df`` (degrees of freedom, whole or not), ``fixedN``
         (N decimals), ``gN`` (N significant digits), ``percentN`` (a share times 100, N decimals),
         ``p`` (a p-value) or ``log10p`` (its decimal logarithm).
+    note : str
+        What a reader of this column has to know beside the table's own note: what shows only some
+        of the columns has only their notes.
     """
 
     name: str
     label: str
     unit: str = ""
     format: str = "text"
+    note: str = ""
 
     def __post_init__(self) -> None:
         if not _FORMAT.fullmatch(self.format):
@@ -213,7 +217,7 @@ class Table:
         that the value could not be computed.
     columns : tuple of Column
     note : str
-        What is assumed, and how to read the table.
+        What is assumed, and how to read the table; of columns, only what all of them need.
     """
 
     name: str
