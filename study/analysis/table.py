@@ -97,9 +97,12 @@ def select(frame: pd.DataFrame, where: Mapping[str, object], of: str = "the fram
         If the frame has no such column.
     """
     check_columns(where, list(frame.columns), of)
-    for column, value in where.items():
-        frame = frame[frame[column] == value]
-    return frame
+    if not where:
+        return frame
+    picked = np.ones(len(frame), dtype=bool)
+    for column, value in where.items():  # of the rows picked so far
+        picked[picked] = (frame[column][picked] == value).to_numpy(dtype=bool, na_value=False)
+    return frame[picked]
 
 
 def check_columns(asked: Iterable[str], columns: Sequence[str], of: str) -> None:
