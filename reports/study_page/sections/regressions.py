@@ -290,6 +290,7 @@ def _figure(evidence: Evidence, name: str, title: str, paper: str, which: str) -
 
 def _panel(evidence: Evidence, view: View, part: str, which: str) -> style.Panel | None:
     means = evidence.rows(PART_MEANS, view, part=part)
+    curves = evidence.rows(CURVES, view, part=part, view=which).frame
     traces: list[Spec] = []
     models = LINEAR_MODELS if which == LEAST_SQUARES else MODELS
     for series, model in enumerate(one.name for one in models):
@@ -311,15 +312,15 @@ def _panel(evidence: Evidence, view: View, part: str, which: str) -> style.Panel
             )
     if means.empty or not traces:
         return None
-    low, high = float(means["mean_lepp"].min()), float(means["mean_lepp"].max())
-    margin = max((high - low) / 4, 0.002)
+    low, high = _heights(means["mean_lepp"], curves if which == PREDICTION else curves[:0])
+    sizes = list(curves["n_points"]) if which == PREDICTION else evidence.design.sizes
     scores = evidence.rows(MODEL_SCORES, view, part=part)
     if which == PREDICTION and not scores.empty:
         end = scores.first["fitted_up_to"]
         traces.append(
             style.scatter(
                 x=[end, end],
-                y=[low - margin, high + margin],
+                y=[low, high],
                 mode="lines",
                 name="end of the sizes fitted",
                 legendgroup="end",
@@ -345,7 +346,21 @@ def _panel(evidence: Evidence, view: View, part: str, which: str) -> style.Panel
     )
     return style.Panel(
         traces,
-        style.number_of_points(evidence.design.sizes),
-        style.axis("Mean LEPP size", range=[low - margin, high + margin]),
+        style.number_of_points(sizes, fixed=True),
+        style.axis("Mean LEPP size", range=[low, high]),
         title=f"The {part}{' mesh' if part == WHOLE else ''}",
     )
+
+
+def _heights(means: pd.Series, curves: pd.DataFrame) -> tuple[float, float]:
+    """Return the ends of the vertical axis: all means, and all of each curve that stays near them.
+
+    A curve that goes further away than the means lie apart leaves the panel: a parabola would
+    squeeze all others together.
+    """
+    low, high = float(means.min()), float(means.max())
+    apart = max(high - low, 0.004)
+    ends = curves.groupby("model")["prediction"].agg(["min", "max"])
+    near = ends[(ends["min"] > low - apart) & (ends["max"] < high + apart)]
+    low, high = min([low, *near["min"]]), max([high, *near["max"]])
+    return low - apart / 4, high + apart / 4

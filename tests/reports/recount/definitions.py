@@ -49,8 +49,9 @@ DEFINITIONS: dict[str, frozenset[str]] = {
         {
             "A dot is one triangulation; it is drawn at its number of points.",
             "A line that rises says that long paths start at the edge.",
-            "A square is the second group's mean less the first's; a dot marks pairs that "
-            "cannot be told apart.",
+            "It ends where fewer than 100 paths are left.",
+            "A square is the second group's mean less the first's, blue where it is larger "
+            "and orange where it is smaller; a dot marks pairs that cannot be told apart.",
             "Above the whole mesh, below its interior, where there is one.",
             "At the left end are all triangles: there the share is that of the edge in the mesh.",
             "Bars are 95 % intervals of the means.",

@@ -17,6 +17,9 @@ from run_data import (
 )
 from scipy import stats
 
+HOLM = (
+    "After Holm's correction, which lets a false rejection through in one in twenty such studies,"
+)
 _KINDS = {"runs": "runs", "ks": "Kolmogorov-Smirnov"}
 
 
@@ -91,8 +94,8 @@ def normality(run: Run, method: str, distribution: str) -> tuple[int, int, int]:
 def shapiro(v: View, s: Sheet, k: int) -> str:
     below, _, groups = normality(*v.key)
     return (
-        f"Shapiro-Wilk gives p below 0.05 in {s(below)} of {s(groups)} groups; one in twenty "
-        "would by chance."
+        f"Shapiro-Wilk gives p below 0.05 in {s(below)} of {s(groups)} groups; by chance alone it "
+        f"would in {s(0.05 * groups)}."
     )
 
 
@@ -100,14 +103,8 @@ def shapiro(v: View, s: Sheet, k: int) -> str:
 def shapiro_holm(v: View, s: Sheet, k: int) -> str:
     rejected = normality(*v.key)[1]
     if rejected:
-        return (
-            f"After Holm's correction {s(rejected)} {plural(rejected, 'is', 'are')} rejected as "
-            "normal."
-        )
-    return (
-        f"After Holm's correction {s(0)} are rejected as normal, which does not show that they are "
-        "normal."
-    )
+        return f"{HOLM} {s(rejected)} {plural(rejected, 'is', 'are')} rejected as normal."
+    return f"{HOLM} {s(0)} is rejected as normal, which does not show that they are normal."
 
 
 @recount("figure-qq", "The ")
@@ -279,7 +276,7 @@ def had_to(v: View, s: Sheet, k: int) -> str:
 def all_holm(v: View, s: Sheet, k: int) -> str:
     p = np.concatenate([p for d in v.run.distributions for p in families(v.run, d).values()])
     rejected = int((holm(p) < 0.05).sum())
-    return f"After Holm's correction {s(rejected)} {'reject' if rejected > 1 else 'rejects'}."
+    return f"{HOLM} {s(rejected)} {'reject' if rejected > 1 else 'rejects'}."
 
 
 @recount("figure-uniformity", "For ")
@@ -324,7 +321,8 @@ def table_3(v: View, s: Sheet, k: int) -> str:
     below, rejected, groups = normality(*v.key)
     return (
         f"The groups are normal | {'no' if rejected else 'not rejected'} | {s(below)} of "
-        f"{s(groups)} groups below 0.05, {s(rejected)} after Holm's correction"
+        f"{s(groups)} groups below 0.05, where {s(0.05 * groups)} would be by chance; "
+        f"{s(rejected)} after Holm's correction"
     )
 
 
