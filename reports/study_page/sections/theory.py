@@ -241,8 +241,9 @@ def _moments(evidence: Evidence) -> FigureBlock:
             ((rows["low"] <= rows["predicted"]) & (rows["predicted"] <= rows["high"])).sum()
         )
         return (
-            f"Theorem 1's value lies inside the {LEVEL} interval of the measured one in {inside} "
-            f"of {len(rows)} cases (four moments at each number of points)."
+            f"With p of the first step, Theorem 1's value lies inside the {LEVEL} interval of the "
+            f"measured one in {inside} of {len(rows)} cases (four moments at each number of "
+            "points)."
         )
 
     return FigureBlock(

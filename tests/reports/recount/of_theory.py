@@ -425,7 +425,8 @@ def moments_inside(v: View, s: Sheet, k: int) -> str:
             inside += low <= by_p[name] <= high
             cases += 1
     return (
-        f"Theorem 1's value lies inside the 95 % interval of the measured one in {s(inside)} of "
+        "With p of the first step, Theorem 1's value lies inside the 95 % interval of the "
+        f"measured one in {s(inside)} of "
         f"{s(cases)} cases (four moments at each number of points)."
     )
 

@@ -200,7 +200,8 @@ def test_intervals_that_hold_theorem_1_are_counted():
                 )
                 inside += low <= value <= high
         assert page(name).finding("figure-moments") == (
-            f"Theorem 1's value lies inside the 95 % interval of the measured one in {inside} of "
+            "With p of the first step, Theorem 1's value lies inside the 95 % interval of the "
+            f"measured one in {inside} of "
             "16 cases (four moments at each number of points)."
         )
     assert inside == 0
