@@ -78,6 +78,8 @@ def _column_data(table: Table, column: Column) -> dict:
         senses = {text: sense(text) for text in dict.fromkeys(shown)}
         data["senses"] = {text: value for text, value in senses.items() if value}
         data["verdict"] = True
+    if column.note:
+        data["note"] = typeset(column.note)
     data["raw"] = raw
     if shown != raw:
         data["shown"] = shown

@@ -8,11 +8,12 @@ theme's colours in their place. Series differ by colour and by dash or symbol, n
 alone.
 """
 
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from study.text.numbers import percent, ten_to, thousands
+from study.text.numbers import percent, show, ten_to, thousands
 
 if TYPE_CHECKING:
     from pandas import Series
@@ -24,7 +25,14 @@ MUTED = "var(--muted)"
 SURFACE = "var(--surface)"
 BAND = "var(--band)"
 SERIES = tuple(f"var(--series-{k})" for k in range(1, 6))
-SCALE = [[k / 4, f"var(--scale-{k})"] for k in range(5)]
+#: From the least of a scale about 0, over 0, to the most: what rises and what falls differ by
+#: colour, and what is near 0 is pale.
+SCALE = [
+    [k / 8, color]
+    for k, color in enumerate(
+        [f"var(--fall-{k})" for k in range(4, 0, -1)] + [f"var(--scale-{k})" for k in range(5)]
+    )
+]
 DASHES = ("solid", "dash", "dot", "dashdot", "longdash")
 SYMBOLS = ("circle", "diamond", "square", "triangle-up", "x")
 #: Legend above the plot; Plotly's own place beside it takes a third of a narrow screen.
@@ -44,6 +52,12 @@ _TICK_FORMATS = [
 _POWERS = range(-20, 21)
 #: Factor beyond which a linear axis squeezes the smaller sizes together.
 _WIDE = 50
+#: What a logarithmic axis of numbers of points may have a label at, within each power of ten.
+_STEPS = ((1, 2, 5), (1, 3), (1,))
+#: Steps between the labels of an axis of shares.
+_SHARE_STEPS = [step * 10.0**power for power in range(-5, 0) for step in (1, 2, 5)]
+#: As many labels fit along an axis on a telephone.
+_MOST_LABELS = 7
 
 
 @dataclass(frozen=True)
@@ -118,12 +132,54 @@ def powers(title: str, **more: Any) -> Spec:  # noqa: ANN401 - as above
     )
 
 
-def number_of_points(sizes: Iterable[int], **more: Any) -> Spec:  # noqa: ANN401 - as above
-    """Axis of numbers of points: logarithmic where they span more than a factor of 50."""
+def number_of_points(
+    sizes: Iterable[int],
+    columns: int = 1,
+    *,
+    fixed: bool = False,
+    **more: Any,  # noqa: ANN401 - as above
+) -> Spec:
+    """Axis of numbers of points: logarithmic where they span more than a factor of 50.
+
+    `columns` is the number of panels side by side; a `fixed` axis ends with the sizes, whatever is
+    drawn beyond.
+    """
     title, seen = "Number of points", list(sizes)
-    if seen and max(seen) > _WIDE * min(seen):
-        return powers(title, **more)
-    return axis(title, **more)
+    if not seen:
+        return axis(title, **more)
+    low, high = min(seen), max(seen)
+    wide = high > _WIDE * low
+    if fixed:
+        ends = (math.log10(low), math.log10(high)) if wide else (low, high)
+        margin = 0.03 * (ends[1] - ends[0] or ends[1])
+        more["range"] = [ends[0] - margin, ends[1] + margin]
+    if not wide:
+        return axis(title, **more)
+    ticks = _ticks(low, high, _MOST_LABELS // columns)
+    labels = [thousands(tick) for tick in ticks]
+    return axis(title, type="log", tickvals=ticks, ticktext=labels, tickformatstops=[], **more)
+
+
+def _ticks(low: int, high: int, most: int) -> list[int]:
+    """Round numbers about `low` to `high`, of which `most` at most lie between."""
+    powers_of_ten = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    each = ([step * 10**power for power in powers_of_ten for step in steps] for steps in _STEPS)
+    few = (ticks for ticks in each if sum(low <= tick <= high for tick in ticks) <= most)
+    return next(few, [10**power for power in powers_of_ten])
+
+
+def shares(title: str, largest: float) -> Spec:
+    """Axis of shares from 0 to a little above the largest, as percentages."""
+    largest = max(largest, _SHARE_STEPS[0])
+    step = next((step for step in _SHARE_STEPS if 6 * step >= largest), _SHARE_STEPS[-1])
+    ticks = [k * step for k in range(7)]
+    decimals = max(0, -math.floor(math.log10(100 * step)))
+    return axis(
+        title,
+        range=[-0.03 * largest, 1.08 * largest],
+        tickvals=ticks,
+        ticktext=[percent(tick, decimals) for tick in ticks],
+    )
 
 
 def percents(title: str, **more: Any) -> Spec:  # noqa: ANN401 - as above
@@ -171,11 +227,12 @@ def _rough(lengths: "Series") -> list[float]:
     return [float(f"{length:.4g}") for length in lengths]
 
 
-def color_bar(title: str, decimals: str) -> Spec:
+def color_bar(title: str, most: float) -> Spec:
     """Scale of a heat map, above it: beside it, it takes a quarter of a narrow screen.
 
-    `decimals` is the format of its labels, ``.3f``.
+    It reaches from −`most` to `most`, and has these labels and 0.
     """
+    ends = (-most, 0.0, most)
     return {
         "title": {"text": title, "side": "top", "font": {"size": 13}},
         "orientation": "h",
@@ -183,12 +240,12 @@ def color_bar(title: str, decimals: str) -> Spec:
         "outlinewidth": 0,
         "x": 0,
         "xanchor": "left",
-        "len": 0.6,
+        "len": 0.85,
         "y": 1.02,
         "yanchor": "bottom",
-        "nticks": 5,
         "tickfont": {"size": 12},
-        "tickformat": decimals,
+        "tickvals": list(ends),
+        "ticktext": [show(end, "fixed4") for end in ends],
     }
 
 
@@ -303,19 +360,22 @@ def _domains(
     return domains
 
 
-def _of(series: int, **choices: Sequence[str]) -> Spec:
-    # Beyond the last colour they begin again.
-    return {name: values[series % len(values)] for name, values in choices.items()}
-
-
 def marker(series: int, size: float = 7, **more: Any) -> Spec:  # noqa: ANN401 - as above
     """Marker of a series."""
-    return {**_of(series, color=SERIES, symbol=SYMBOLS), "size": size, **more}
+    color, symbol = _pair(series, SYMBOLS)
+    return {"color": color, "symbol": symbol, "size": size, **more}
 
 
 def line(series: int, width: float = 2) -> Spec:
     """Line of a series."""
-    return {**_of(series, color=SERIES, dash=DASHES), "width": width}
+    color, dash = _pair(series, DASHES)
+    return {"color": color, "dash": dash, "width": width}
+
+
+def _pair(series: int, signs: Sequence[str]) -> tuple[str, str]:
+    """Color and sign of a series: beyond the last color they begin again, with another sign."""
+    around, place = divmod(series, len(SERIES))
+    return SERIES[place], signs[(place + around) % len(signs)]
 
 
 def band(x: object, low: object, high: object, name: str) -> list[Spec]:

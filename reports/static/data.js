@@ -10,6 +10,7 @@
  * @property {string} header of the CSV file
  * @property {string} label
  * @property {string} [unit]
+ * @property {string} [note] beside the table's own
  * @property {boolean} [number]
  * @property {boolean} [verdict]
  * @property {Record<string, string>} [senses] of verdicts: "good" or "bad"

@@ -231,7 +231,7 @@ function drawTable(host, report, view, choices) {
     offer("Download CSV", "csv", () => saveCsv(`${table.name}.csv`, table.csv)),
     offer("CSV of what is shown", "csv-shown", () =>
       saveCsv(`${table.name}_shown.csv`, table.csvOf(columns, rows))));
-  const said = [table.note];
+  const said = [...new Set([table.note, ...columns.map((column) => column.note)])];
   if (!all.length) said.push("No row could be computed for this choice.");
   if (all.length > printed) {
     said.push(`${all.length.toLocaleString("en")} rows; a print-out has the first ${printed}.`);

@@ -14,6 +14,8 @@ from study.statistics.thresholds import LEVEL
 #: What is missing where tasks failed or have not been run.
 TRIANGULATIONS_MISSING = "triangulations"
 
+_INTERVALS = "The intervals are t intervals of the mean over independent triangulations."
+
 GROUPS = Declaration(
     "groups",
     "Groups of triangulations (Table 4)",
@@ -29,20 +31,31 @@ GROUPS = Declaration(
         Column("mean_max_lepp_rounded", "Mean largest LEPP, rounded", "triangles", "int"),
         Column("max_lepp", "Largest LEPP", "triangles", "int"),
         Column("mean_lepp", "Mean LEPP", "triangles", "fixed4"),
-        Column("mean_low", f"{LEVEL} from", "triangles", "fixed4"),
+        Column("mean_low", f"{LEVEL} from", "triangles", "fixed4", _INTERVALS),
         Column("mean_high", f"{LEVEL} to", "triangles", "fixed4"),
-        Column("sd_between", "SD of the means", "triangles", "fixed4"),
-        Column("sd_within", "Mean SD inside a triangulation", "triangles", "fixed4"),
+        Column(
+            "sd_between",
+            "SD of the means",
+            "triangles",
+            "fixed4",
+            "SD of the means is the standard deviation between the triangulations' mean LEPP "
+            "sizes: what the last column of the published Table 4 holds.",
+        ),
+        Column(
+            "sd_within",
+            "Mean SD inside a triangulation",
+            "triangles",
+            "fixed4",
+            "Mean SD inside a triangulation is what the published Table 4's text says that its "
+            "last column holds.",
+        ),
         Column("lowest", "Lowest mean", "triangles", "fixed4"),
         Column("q1", "Lower quartile", "triangles", "fixed4"),
         Column("median", "Median", "triangles", "fixed4"),
         Column("q3", "Upper quartile", "triangles", "fixed4"),
         Column("highest", "Highest mean", "triangles", "fixed4"),
     ),
-    note="SD of the means is the standard deviation between the triangulations' mean LEPP sizes: "
-    "what the last column of the published Table 4 holds. Mean SD inside a triangulation is "
-    "what its text says that it holds. The intervals are t intervals of the mean over "
-    "independent triangulations.",
+    note="One row a number of points, over its triangulations.",
 )
 
 OVERVIEW = Declaration(

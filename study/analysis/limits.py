@@ -101,7 +101,7 @@ LIMIT_EVIDENCE = Declaration(
     "root of ln n, which have no limit, too well. No: growth without limit survives, edge models "
     f"are out, and q is surely above {NEARLY_LOGARITHMIC:g}: no limit is in sight, as far as the "
     "data reach. Undecided otherwise. Surely means with all of the profile likelihood interval; an "
-    "empty end says that the data set none. The power of growth is q. The limit is that of the "
+    "empty end says that the data set none. The powers are those of q. The limit is that of the "
     "model with the lowest AIC, its interval from the lowest end to the highest of all models with "
     "a limit that survive.",
 )

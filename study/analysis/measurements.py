@@ -1,6 +1,6 @@
 """The results of a study as the statistics need them."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -155,14 +155,12 @@ def groups_of(triangulations: pd.DataFrame, column: str) -> Groups:
 
 
 def _ordered(frame: pd.DataFrame, design: "Design") -> pd.DataFrame:
-    def rank(names: Sequence[str]) -> dict[str, int]:
-        return {name: place for place, name in enumerate(names)}
-
-    ranks = {"method": rank(design.methods), "distribution": rank(design.distributions)}
-    keys = (*_KEY, "layer", "lepp_size", "region_size")
-    by = [name for name in keys if name in frame.columns]
-    return frame.sort_values(
-        by,
-        key=lambda column: column.map(ranks[column.name]) if column.name in ranks else column,
-        kind="stable",
-    ).reset_index(drop=True)
+    ranked = {"method": design.methods, "distribution": design.distributions}
+    keys = [
+        pd.Categorical(frame[name], categories=list(ranked[name])).codes
+        if name in ranked
+        else frame[name].to_numpy()
+        for name in (*_KEY, "layer", "lepp_size", "region_size")
+        if name in frame.columns
+    ]
+    return frame.take(np.lexsort(keys[::-1])).reset_index(drop=True)

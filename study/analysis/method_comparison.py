@@ -41,8 +41,8 @@ METHODS_COMPARED = Declaration(
     ),
     note="Every method triangulates the same points: differences are taken point set by point set, "
     "with the paired t interval and test of no difference. "
-    "There are {tests} tests in this table; multiply p by that number for Bonferroni's "
-    "correction.",
+    "Of all distributions and numbers of points there are {tests} tests; multiply p by that "
+    "number for Bonferroni's correction.",
 )
 
 GROWTH = Declaration(

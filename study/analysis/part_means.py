@@ -146,9 +146,10 @@ def layer_means(one: Population) -> Iterator[Row]:
         of_size = rows[rows["n_points"] == n]
         total = of_size["count"].sum()
         layers: list[Row] = []
-        for layer, of_layer in of_size.groupby("layer", sort=True):
-            counts = _by_replicate(of_layer)
-            mean, error, low, high = ratio_of_sums(counts["steps"], counts["count"])
+        for layer, of_layer in _by_replicate(of_size).groupby(level="layer", sort=True):
+            mean, error, low, high = ratio_of_sums(
+                *(of_layer[name].to_numpy(dtype=np.int64) for name in ("steps", "count"))
+            )
             layers.append(
                 {
                     "n_points": int(n),
@@ -182,10 +183,12 @@ def _against_interior(layers: pd.DataFrame, df: int) -> list[str | None]:
     return [*words.tolist(), None]
 
 
-def _by_replicate(rows: pd.DataFrame) -> dict[str, np.ndarray]:
+def _by_replicate(rows: pd.DataFrame) -> pd.DataFrame:
+    """Sum up each layer of each triangulation: triangles, their paths, the longest of these."""
     steps = rows.assign(steps=rows["lepp_size"] * rows["count"])
-    sums = steps.groupby("replicate", sort=True)[["steps", "count"]].sum()
-    return {name: sums[name].to_numpy(dtype=np.int64) for name in sums}
+    return steps.groupby(["layer", "replicate"], sort=True).agg(
+        {"steps": "sum", "count": "sum", "lepp_size": "max"}
+    )
 
 
 @rows_by_population(LONGEST_PATHS, "layers of the longest paths")

@@ -64,6 +64,11 @@ _BEYOND, _CURVE_POINTS = 10, 31
 _MODEL = Column("model", "Model")
 _FITTING = Column("fitting", "Fitted by")
 
+_CRITERIA = (
+    "AIC and BIC are on the scale of y for all models, and so comparable among the fits of the "
+    "same observations."
+)
+
 REGRESSIONS = Declaration(
     "regressions",
     "Regressions of the mean LEPP size on the number of points (Table 7)",
@@ -75,29 +80,44 @@ REGRESSIONS = Declaration(
         _FITTING,
         Column("formula", "Formula, x in thousands of points"),
         Column("observations", "Observations", "triangulations", "int"),
-        Column("adj_r2", "Adjusted R²", "", "fixed3"),
+        Column(
+            "adj_r2",
+            "Adjusted R²",
+            "",
+            "fixed3",
+            "The logistic model's adjusted R² is on that scale.",
+        ),
+        # F and p of the logistic model are on its scale, of the saturating one those of its
+        # linearisation.
         Column("f", "F", "", "fixed1"),
         Column("df_model", "Df, model", "", "int"),
         Column("df_residual", "Df, residuals", "", "int"),
         Column("p", "p", "", "p"),
         Column("log10_p", "log10 p", "", "log10p"),
         Column("lack_of_fit_f", "F, lack of fit", "", "fixed2"),
-        Column("lack_of_fit_p", "p, lack of fit", "", "p"),
-        Column("aic", "AIC", "", "fixed1"),
-        Column("bic", "BIC", "", "fixed1"),
+        Column(
+            "lack_of_fit_p",
+            "p, lack of fit",
+            "",
+            "p",
+            "Lack of fit compares the model's residuals with the spread inside the groups: a small "
+            "p says that the model does not follow the groups' means.",
+        ),
+        Column("aic", "AIC", "", "fixed1", _CRITERIA),
+        Column("bic", "BIC", "", "fixed1", _CRITERIA),
         Column("rmse", "Root mean square residual", "triangles", "g4"),
-        Column("left_out_rmse", "Error of left-out groups", "triangles", "g4"),
+        Column(
+            "left_out_rmse",
+            "Error of left-out groups",
+            "triangles",
+            "g4",
+            "The error of left-out groups is that of a group's mean predicted from all others, on "
+            "the scale of y for all models.",
+        ),
     ),
-    note="One observation a triangulation; weights are reciprocal variances, which are a smooth "
-    "function of the number of points. The logistic model is a straight line for ln(y / (4 - y)), "
-    "as the published coefficients and R² are; its adjusted R², F and p are on that "
-    "scale. AIC, BIC and both errors are on the scale of y for all models, "
-    "and so comparable: AIC and BIC among the fits of the same observations. Weights "
-    "count as known variances. Lack of fit compares the model's residuals with the spread "
-    "inside the groups: a small p says that the model does not follow the groups' means. The "
-    "left-out error is that of a group's mean predicted from all other groups. F and p of the "
-    "saturating model are those of its linearisation. A table on the page may leave some of these "
-    "columns out; its CSV file has them all.",
+    note="One observation a triangulation. The weights of weighted fits are reciprocal variances, "
+    "which are a smooth function of the number of points and count as known. The logistic model is "
+    "a straight line for ln(y / (4 - y)), as the published coefficients and R² are.",
 )
 
 COEFFICIENTS = Declaration(

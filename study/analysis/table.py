@@ -44,12 +44,16 @@ class Column:
         that is good or bad news), ``int``, ``df`` (degrees of freedom, whole or not), ``fixedN``
         (N decimals), ``gN`` (N significant digits), ``percentN`` (a share times 100, N decimals),
         ``p`` (a p-value) or ``log10p`` (its decimal logarithm).
+    note : str
+        What a reader of this column has to know beside the table's own note: what shows only some
+        of the columns has only their notes.
     """
 
     name: str
     label: str
     unit: str = ""
     format: str = "text"
+    note: str = ""
 
     def __post_init__(self) -> None:
         if not _FORMAT.fullmatch(self.format):
@@ -93,9 +97,12 @@ def select(frame: pd.DataFrame, where: Mapping[str, object], of: str = "the fram
         If the frame has no such column.
     """
     check_columns(where, list(frame.columns), of)
-    for column, value in where.items():
-        frame = frame[frame[column] == value]
-    return frame
+    if not where:
+        return frame
+    picked = np.ones(len(frame), dtype=bool)
+    for column, value in where.items():  # of the rows picked so far
+        picked[picked] = (frame[column][picked] == value).to_numpy(dtype=bool, na_value=False)
+    return frame[picked]
 
 
 def check_columns(asked: Iterable[str], columns: Sequence[str], of: str) -> None:
@@ -213,7 +220,7 @@ class Table:
         that the value could not be computed.
     columns : tuple of Column
     note : str
-        What is assumed, and how to read the table.
+        What is assumed, and how to read the table; of columns, only what all of them need.
     """
 
     name: str

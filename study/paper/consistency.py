@@ -43,10 +43,10 @@ CONSISTENCY = Declaration(
     "bounds of what all data give that round to Table 4; exact for the coefficients and the t "
     "tests, and to the second order in the rounding for F and what follows from it, R² and "
     "p. The logistic model is fitted to logits, whose spread Table 4 fixes only roughly: its "
-    "bounds hold for any data, and are wider. Attained is what made-up data reach that round to "
-    "Table 4. "
-    f"{CONSISTENT.capitalize()}: what rounds to the printed number meets the attained range; "
-    f"{MISPRINT}: it lies outside the bounds, so that no data give both; {UNDECIDED}: between.",
+    "bounds hold for any data, and are wider. "
+    f"{CONSISTENT.capitalize()}: what rounds to the printed number meets the range that made-up "
+    f"data reach which round to Table 4; {MISPRINT}: it lies outside the bounds, so that no data "
+    f"give both; {UNDECIDED}: between.",
 )
 
 

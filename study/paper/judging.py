@@ -22,7 +22,7 @@ _NO_ROUNDING = 1e-3
 
 RULE = (
     f"agrees: within {AGREES_UP_TO:g} standard errors (19 of 20 numbers do by chance); close: "
-    f"within {CLOSE_UP_TO:g} (all but one in 370); differs: beyond. The standard error is that of "
+    f"within {CLOSE_UP_TO:g} (all but one in 370); differs: beyond. Standard errors are those of "
     "the difference: ours, the paper's and the rounding of what it prints, together"
 )
 

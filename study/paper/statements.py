@@ -197,8 +197,9 @@ def _normal(of: _Tables) -> Judged:
     rows = of.rows(SHAPIRO)
     rejected = (rows["normal"] == REJECTED).sum()
     return NO if rejected else NOT_REJECTED, (
-        f"{(rows['p'] < SIGNIFICANCE).sum()} of {len(rows)} groups below {SIGNIFICANCE}, "
-        f"{rejected} after Holm's correction"
+        f"{(rows['p'] < SIGNIFICANCE).sum()} of {len(rows)} groups below {SIGNIFICANCE}, where "
+        f"{show(SIGNIFICANCE * len(rows), 'fixed1')} would be by chance; {rejected} after Holm's "
+        "correction"
     )
 
 

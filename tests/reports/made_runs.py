@@ -131,6 +131,14 @@ def short_or_long(histograms: Frame) -> Frame:
     return pd.concat(parts, ignore_index=True)
 
 
+def skewed(results: Frame) -> Frame:
+    """Spread the means alike, but for large sets: most near one value, and one far away."""
+    scores = np.array([0, 0.05, 0.1, 0.15, 0.2, 0.25, 7, 14])[results["replicate"]]
+    even = with_means(level)(results)
+    large = results["n_points"] == results["n_points"].max()
+    return even.assign(mean_lepp=even["mean_lepp"].where(~large, 3.05 + 0.004 * scores))
+
+
 def out_of_bounds(results: Frame) -> Frame:
     first = (results["replicate"] == 0) & (results["n_points"] == 2000)
     return results.assign(mean_lepp=results["mean_lepp"].where(~first, 4.5))
@@ -171,6 +179,7 @@ CHANGES: dict[str, dict[str, Callable]] = {
     "falling": {"results": with_means(falling), "regions": large_regions},
     "narrowing": {"results": with_means(growing, lambda n: 40 / n)},
     "widening": {"results": with_means(level, lambda n: n / 1e6)},
+    "skewed": {"results": skewed},
     "p falls": {"results": falling_shares, "histograms": short_or_long},
     "low p": {"results": with_shares(0.30), "histograms": histogram_of(LONG)},
     "high p": {"results": with_shares(0.50), "histograms": histogram_of(SHORT)},

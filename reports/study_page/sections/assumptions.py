@@ -7,9 +7,10 @@ from reports.page.blocks import FigureBlock, Prose, Subsection, TableBlock, per_
 from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View
+from reports.text.words import AFTER_HOLM
 from study.analysis.group_assumptions import LEVENE, QQ, SHAPIRO
 from study.analysis.group_summaries import GROUPS
-from study.statistics.thresholds import ONE_IN_TWENTY, SIGNIFICANCE
+from study.statistics.thresholds import SIGNIFICANCE
 from study.statistics.verdicts import REJECTED
 from study.text.numbers import count, none_or, p_is, show
 
@@ -72,8 +73,9 @@ def _assumptions(evidence: Evidence, view: View) -> list[str] | None:
         rejected = int((shapiro["normal"] == REJECTED).sum())
         sentences.append(
             f"Shapiro-Wilk gives p below {SIGNIFICANCE} in {none_or(below)} of "
-            f"{count(len(shapiro), 'group')}; {ONE_IN_TWENTY} would by chance. After Holm's "
-            f"correction {none_or(rejected)} {'is' if rejected == 1 else 'are'} rejected as normal"
+            f"{count(len(shapiro), 'group')}; by chance alone it would in "
+            f"{show(SIGNIFICANCE * len(shapiro), 'fixed1')}. {AFTER_HOLM} {none_or(rejected)} "
+            f"{'is' if rejected < 2 else 'are'} rejected as normal"
             + ("." if rejected else ", which does not show that they are normal.")
         )
     return sentences or None

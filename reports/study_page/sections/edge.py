@@ -22,7 +22,7 @@ from study.analysis.part_means import (
 from study.analysis.parts import INTERIOR, WHOLE
 from study.analysis.table import Rows
 from study.statistics.verdicts import REJECTED
-from study.text.numbers import count, listed, p_is, show
+from study.text.numbers import count, listed, none_or, p_is, show
 
 #: Paths of a size that so many at least have are called long.
 _LONG = 100
@@ -136,7 +136,7 @@ def _one_mean(evidence: Evidence, view: View) -> str | None:
 
 def _lines(
     evidence: Evidence,
-    rows_of: Callable[[str], Rows],
+    rows_of: Callable[[str], Rows | pd.DataFrame],
     x: str,
     y: str,
     hover: str,
@@ -154,8 +154,8 @@ def _lines(
             continue
         name = distribution_name(distribution)
         line = style.scatter(
-            x=rows.column(x),
-            y=rows.column(y),
+            x=rows.column(x) if isinstance(rows, Rows) else rows[x],
+            y=rows.column(y) if isinstance(rows, Rows) else rows[y],
             mode="lines+markers",
             name=name,
             line=style.line(series),
@@ -163,7 +163,7 @@ def _lines(
             hovertemplate=f"{hover}<extra>{name}</extra>",
             **({"legendgroup": distribution, "showlegend": in_legend} if shared else {}),
         )
-        if "low" in rows.frame:
+        if isinstance(rows, Rows) and "low" in rows.frame:
             line["error_y"] = style.interval(
                 rows[y], rows["low"], rows["high"], style.line(series)["color"], thin=True
             )
@@ -204,13 +204,14 @@ def _figure_parts(evidence: Evidence) -> FigureBlock:
                 continue
             last = rows[rows["n_points"] == rows["n_points"].max()]["mean_lepp"]
             words.append(
-                f"the {part} means of the {count(len(last), 'distribution')} lie from "
-                f"{show(last.min(), 'fixed4')} to {show(last.max(), 'fixed4')}"
+                f"of {count(len(last), 'distribution')} in the "
+                f"{'whole mesh' if part == WHOLE else part} lie between "
+                f"{show(last.min(), 'fixed4')} and {show(last.max(), 'fixed4')}"
             )
         if not words:
             return None
         largest = max(evidence.design.sizes)
-        return f"At {largest:,} points {' and '.join(words)}."
+        return f"At {largest:,} points the means {', those '.join(words)}."
 
     return FigureBlock(
         id="figure-parts",
@@ -300,13 +301,13 @@ def _figure_layers(evidence: Evidence) -> FigureBlock:
         )
 
     def say(view: View) -> str | None:
-        words = []
+        words, some = [], False
         for distribution in evidence.design.distributions:
             layers = _at_largest(evidence, View(view.method, distribution)).frame
             if layers.empty:
                 continue
             above = layers[layers["against_interior"] == ABOVE]
-            layer = "none"
+            layer, some = "none", some or not above.empty
             if not above.empty:
                 top = above.loc[above["mean_lepp"].idxmax()]
                 layer = f"{top['layer']} ({show(top['mean_lepp'], 'fixed2')})"
@@ -314,6 +315,8 @@ def _figure_layers(evidence: Evidence) -> FigureBlock:
         if not words:
             return None
         interior = f"the interior, which begins at layer {INTERIOR_LAYER}"
+        if not some:
+            return f"No layer is shown to lie above {interior}, for any distribution."
         return f"The layer furthest above {interior}: {'; '.join(words)}."
 
     return FigureBlock(
@@ -331,15 +334,17 @@ def _longest(evidence: Evidence, view: View) -> list[str] | None:
     rows = evidence.rows(LONGEST_PATHS, view)
     if rows.empty:
         return None
-    frame, last = rows.frame, rows.last
-    many = frame[frame["paths"] >= _LONG]
+    last = rows.last
+    many = _many(evidence, view)
     sentences = []
     if not many.empty:
         long = many.iloc[-1]
         sentences.append(
             f"Of the {long['paths']:,} paths of {long['lepp_size']} triangles and more at "
-            f"{long['n_points']:,} points, {show(long['edge_share'], 'percent1')} start at the "
-            f"edge, which has {show(long['edge_triangles'], 'percent2')} of the triangles."
+            f"{long['n_points']:,} points, {none_or(_at_edge(long))} "
+            f"{'starts' if _at_edge(long) < 2 else 'start'} at the edge; by its share of the "
+            f"triangles, {show(long['edge_triangles'], 'percent2')}, "
+            f"{show(_by_share(long), 'fixed1')} would."
         )
     where = (
         "in the interior" if last["layer"] == INTERIOR_LAYER else f"in layer {last['layer']}"
@@ -354,11 +359,26 @@ def _longest(evidence: Evidence, view: View) -> list[str] | None:
     return [" ".join(sentences)]
 
 
+def _many(evidence: Evidence, view: View) -> pd.DataFrame:
+    """Return the sizes that so many paths have or exceed that their shares say something."""
+    rows = evidence.rows(LONGEST_PATHS, view)
+    return rows.frame[rows["paths"] >= _LONG]
+
+
+def _at_edge(long: pd.Series) -> int:
+    return int(long["paths"] - long["interior_paths"])
+
+
+def _by_share(long: pd.Series) -> float:
+    """How many of the paths would start at the edge if they did so like all others."""
+    return float(long["paths"] * long["edge_triangles"])
+
+
 def _figure_longest(evidence: Evidence) -> FigureBlock:
     def draw(view: View) -> Spec | None:
         traces = _lines(
             evidence,
-            lambda name: evidence.rows(LONGEST_PATHS, View(view.method, name)),
+            lambda name: _many(evidence, View(view.method, name)),
             "lepp_size",
             "edge_share",
             "%{x} and more: %{y:.2%}",
@@ -368,23 +388,28 @@ def _figure_longest(evidence: Evidence) -> FigureBlock:
         return style.plot(
             *traces,
             xaxis=style.axis("LEPP size of at least"),
-            yaxis=style.axis("Share that starts at the edge", range=[-0.02, 1.04]),
+            yaxis=style.shares(
+                "Share that starts at the edge", max(max(trace["y"]) for trace in traces)
+            ),
         )
 
     def say(view: View) -> str | None:
         words = []
         for distribution in evidence.design.distributions:
-            rows = evidence.rows(LONGEST_PATHS, View(view.method, distribution))
-            many = rows.frame[rows["paths"] >= _LONG]
+            many = _many(evidence, View(view.method, distribution))
             if not many.empty:
                 long = many.iloc[-1]
                 words.append(
-                    f"{show(long['edge_share'], 'percent1')} for {distribution_word(distribution)} "
-                    f"points (of {long['lepp_size']} and more)"
+                    f"{_at_edge(long):,} and {show(_by_share(long), 'fixed1')} of "
+                    f"{long['paths']:,} for {distribution_word(distribution)} points (of "
+                    f"{long['lepp_size']} triangles and more)"
                 )
         if not words:
             return None
-        return f"Of the longest paths, so many start at the edge: {', '.join(words)}."
+        return (
+            "Of the longest paths, so many start at the edge, and so many would by its share of "
+            f"the triangles: {'; '.join(words)}."
+        )
 
     return FigureBlock(
         id="figure-longest",
@@ -392,6 +417,7 @@ def _figure_longest(evidence: Evidence) -> FigureBlock:
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
         reading="At the left end are all triangles: there the share is that of the edge in the "
-        "mesh. A line that rises says that long paths start at the edge.",
+        "mesh. A line that rises says that long paths start at the edge. It ends where fewer than "
+        f"{_LONG} paths are left.",
         data=(TableBlock(LONGEST_PATHS, "paths by size and part"),),
     )

@@ -5,7 +5,7 @@ from reports.page.blocks import ALWAYS, FigureBlock, Prose, Subsection, TableBlo
 from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View
-from reports.text.words import LEVEL
+from reports.text.words import AFTER_HOLM, LEVEL
 from study.analysis.point_randomness import ALL, BINS, COORDINATES, RANDOMNESS, UNIFORMITY
 from study.statistics.thresholds import SIGNIFICANCE
 from study.statistics.verdicts import NOT_REJECTED
@@ -60,7 +60,7 @@ def _randomness(evidence: Evidence) -> Prose:
                 f"({LEVEL} interval {show(row['share_low'], 'percent2')} to "
                 f"{show(row['share_high'], 'percent2')}), {chance}. "
                 f"About {show(row['expected_below'], 'int')} would, even with perfect points. "
-                f"After Holm's correction {none_or(row['rejected_holm'])} "
+                f"{AFTER_HOLM} {none_or(row['rejected_holm'])} "
                 f"{'reject' if row['rejected_holm'] > 1 else 'rejects'}."
             ]
         }

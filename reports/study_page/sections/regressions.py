@@ -10,6 +10,7 @@ from reports.page.style import Spec
 from reports.page.views import View
 from reports.study_page.sections.limit import limit, models_survive
 from reports.text.words import LEVEL
+from study.analysis.group_assumptions import LEVENE
 from study.analysis.group_summaries import GROUPS
 from study.analysis.limits import (
     LIMIT_EVIDENCE,
@@ -35,7 +36,8 @@ from study.analysis.regressions import (
 from study.analysis.trends import PUBLISHED_UP_TO
 from study.statistics.models import LINEAR_MODELS, MODELS
 from study.statistics.thresholds import REFUTED_BELOW
-from study.text.numbers import count, listed, show, ten_to
+from study.statistics.verdicts import REJECTED
+from study.text.numbers import count, listed, p_is, show, ten_to
 
 
 def section(evidence: Evidence) -> Section:
@@ -232,10 +234,22 @@ def _of_paper(evidence: Evidence, view: View) -> list[str] | None:
     return [
         f"Of the paper's four models the {top['model']} one fits the {view.distribution_word} "
         f"points best by least squares, with an adjusted R² of {show(top['adj_r2'], 'fixed3')}. "
-        "Least squares takes all variances to be equal, which they are not: "
-        f"{reference('figure-models')} and Table 7 have it for the comparison with the paper, and "
-        "all else on this page goes by weighted fits."
+        f"Least squares takes all variances to be equal, {_equal_variances(evidence, view)}. "
+        f"{reference('figure-models')} and Table 7 have it for the comparison with the paper; all "
+        "else on this page goes by weighted fits, which do not suppose it."
     ]
+
+
+def _equal_variances(evidence: Evidence, view: View) -> str:
+    """Say what Levene's test, about both centres, makes of equal variances."""
+    tests = evidence.rows(LEVENE, view)
+    if tests.empty:
+        return "which this run is too small to test"
+    rejected = tests["equal_variances"] == REJECTED
+    if rejected.any() and not rejected.all():
+        return "which Levene's test rejects about one centre of the groups but not the other"
+    verb = "rejects" if rejected.all() else "does not reject"
+    return f"which Levene's test {verb} ({p_is(tests.first['log10_p'])})"
 
 
 def _figure(evidence: Evidence, name: str, title: str, paper: str, which: str) -> FigureBlock:
@@ -276,6 +290,7 @@ def _figure(evidence: Evidence, name: str, title: str, paper: str, which: str) -
 
 def _panel(evidence: Evidence, view: View, part: str, which: str) -> style.Panel | None:
     means = evidence.rows(PART_MEANS, view, part=part)
+    curves = evidence.rows(CURVES, view, part=part, view=which).frame
     traces: list[Spec] = []
     models = LINEAR_MODELS if which == LEAST_SQUARES else MODELS
     for series, model in enumerate(one.name for one in models):
@@ -297,15 +312,15 @@ def _panel(evidence: Evidence, view: View, part: str, which: str) -> style.Panel
             )
     if means.empty or not traces:
         return None
-    low, high = float(means["mean_lepp"].min()), float(means["mean_lepp"].max())
-    margin = max((high - low) / 4, 0.002)
+    low, high = _heights(means["mean_lepp"], curves if which == PREDICTION else curves[:0])
+    sizes = list(curves["n_points"]) if which == PREDICTION else evidence.design.sizes
     scores = evidence.rows(MODEL_SCORES, view, part=part)
     if which == PREDICTION and not scores.empty:
         end = scores.first["fitted_up_to"]
         traces.append(
             style.scatter(
                 x=[end, end],
-                y=[low - margin, high + margin],
+                y=[low, high],
                 mode="lines",
                 name="end of the sizes fitted",
                 legendgroup="end",
@@ -331,7 +346,21 @@ def _panel(evidence: Evidence, view: View, part: str, which: str) -> style.Panel
     )
     return style.Panel(
         traces,
-        style.number_of_points(evidence.design.sizes),
-        style.axis("Mean LEPP size", range=[low - margin, high + margin]),
+        style.number_of_points(sizes, fixed=True),
+        style.axis("Mean LEPP size", range=[low, high]),
         title=f"The {part}{' mesh' if part == WHOLE else ''}",
     )
+
+
+def _heights(means: pd.Series, curves: pd.DataFrame) -> tuple[float, float]:
+    """Return the ends of the vertical axis: all means, and all of each curve that stays near them.
+
+    A curve that goes further away than the means lie apart leaves the panel: a parabola would
+    squeeze all others together.
+    """
+    low, high = float(means.min()), float(means.max())
+    apart = max(high - low, 0.004)
+    ends = curves.groupby("model")["prediction"].agg(["min", "max"])
+    near = ends[(ends["min"] > low - apart) & (ends["max"] < high + apart)]
+    low, high = min([low, *near["min"]]), max([high, *near["max"]])
+    return low - apart / 4, high + apart / 4

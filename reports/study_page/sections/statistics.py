@@ -116,6 +116,7 @@ def _pairs(evidence: Evidence) -> FigureBlock:
         if pairs.empty:
             return None
         alike = evidence.rows(PAIRS, view, different=NOT_SHOWN)
+        most = float(pairs["difference"].abs().max())
         sizes = sorted({*pairs["n_points_1"], *pairs["n_points_2"]})
         return style.plot(
             style.heatmap(
@@ -124,9 +125,11 @@ def _pairs(evidence: Evidence) -> FigureBlock:
                 z=pairs.column("difference"),
                 customdata=pairs.column("different"),
                 colorscale=style.SCALE,
+                zmin=-most,
+                zmax=most,
                 xgap=1,
                 ygap=1,
-                colorbar=style.color_bar("Difference of means", ".3f"),
+                colorbar=style.color_bar("Difference of means", most),
                 hovertemplate="%{y} − %{x}: %{z:.4f}, different: %{customdata}<extra></extra>",
             ),
             style.scatter(
@@ -160,8 +163,8 @@ def _pairs(evidence: Evidence) -> FigureBlock:
         title="Which groups differ? Games-Howell comparisons",
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
-        reading="A square is the second group's mean less the first's; a dot marks pairs that "
-        "cannot be told apart.",
+        reading="A square is the second group's mean less the first's, blue where it is larger "
+        "and orange where it is smaller; a dot marks pairs that cannot be told apart.",
         data=(TableBlock(PAIRS, "all pairs"),),
     )
 

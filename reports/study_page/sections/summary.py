@@ -182,7 +182,7 @@ def _theory(evidence: Evidence, view: View) -> str | None:
     last = rows.select(n_points=rows["n_points"].max()).frame.set_index("statistic")
     mean, sd = last.loc[MEAN], last.loc[SD]
     if all_of(bounds["bounds"]) == YES:
-        outcome = f"Theorem 2's bounds hold in every triangulation, {_supposed(bounds)}."
+        outcome = f"Theorem 2's bounds hold in every triangulation{_supposed(bounds)}."
     else:
         outcome = "Theorem 2's bounds fail."
     return (
@@ -200,12 +200,12 @@ def _supposed(bounds: Rows) -> str:
     premise = all_of(bounds["premise"])
     if premise == YES:
         return (
-            f"and follow from what holds as well, that every {step}, as far as the chances are "
-            f"known to within {ROUGH_RATE:g} ({_known_up_to(bounds)})"
+            f". So does what they follow from, that every {step}, as far as the chances are known "
+            f"to within {ROUGH_RATE:g} ({_known_up_to(bounds)})"
         )
     if premise == NO:
-        return f"although not every {step}{_refuted(bounds)}, from which they would follow"
-    return f"while it stays open whether every {step}, from which they would follow"
+        return f", although not every {step}{_refuted(bounds)}, from which they would follow"
+    return f", while it stays open whether every {step}, from which they would follow"
 
 
 def _known_up_to(bounds: Rows) -> str:

@@ -207,11 +207,12 @@ def _theorem_1(evidence: Evidence, view: View) -> list[str] | None:
     first = last.first
     return [
         "Theorem 1 takes the chance to end to be the same at every step, and makes all four "
-        f"moments out of it. {one_chance(evidence, view)} At {first['n_points']:,} points, with "
-        f"p\u00a0=\u00a0{show(first['p_type_c'], 'fixed4')} of the first step, the measured values "
-        f"lie, against the theorem's, {_off(last.frame, 'relative_difference')}; with "
-        f"r\u00a0=\u00a0{show(first['p_all_steps'], 'fixed4')} of all steps the mean fits by "
-        f"construction, and the others lie, {_off(others, 'difference_all_steps')}."
+        f"moments out of it. {one_chance(evidence, view)} At {first['n_points']:,} points, "
+        "measured are, against the theorem with "
+        f"p\u00a0=\u00a0{show(first['p_type_c'], 'fixed4')} of the first step, "
+        f"{_off(last.frame, 'relative_difference')}; against it with "
+        f"r\u00a0=\u00a0{show(first['p_all_steps'], 'fixed4')} of all steps, where the mean fits "
+        f"by construction, {_off(others, 'difference_all_steps')}."
     ]
 
 
@@ -240,8 +241,9 @@ def _moments(evidence: Evidence) -> FigureBlock:
             ((rows["low"] <= rows["predicted"]) & (rows["predicted"] <= rows["high"])).sum()
         )
         return (
-            f"Theorem 1's value lies inside the {LEVEL} interval of the measured one in {inside} "
-            f"of {len(rows)} cases (four moments at each number of points)."
+            f"With p of the first step, Theorem 1's value lies inside the {LEVEL} interval of the "
+            f"measured one in {inside} of {len(rows)} cases (four moments at each number of "
+            "points)."
         )
 
     return FigureBlock(
@@ -258,6 +260,7 @@ def _moments(evidence: Evidence) -> FigureBlock:
 
 def _moment(evidence: Evidence, view: View, statistic: str) -> style.Panel:
     rows = evidence.rows(THEOREM_1, view, statistic=statistic)
+    # With r the mean is the measured one: wide squares below show that it lies there.
     traces = [
         style.scatter(
             x=rows.column("n_points"),
@@ -267,7 +270,9 @@ def _moment(evidence: Evidence, view: View, statistic: str) -> style.Panel:
             legendgroup=name,
             showlegend=statistic == STATISTICS[0],
             line=style.line(series),
-            marker=style.marker(series, 5),
+            marker=style.marker(series, 10, symbol="square-open")
+            if column == "predicted_all_steps"
+            else style.marker(series, 5),
             hovertemplate="%{x:,} points: %{y:.4f}<extra>" + name + "</extra>",
             **(
                 {
@@ -279,17 +284,15 @@ def _moment(evidence: Evidence, view: View, statistic: str) -> style.Panel:
                 else {}
             ),
         )
-        for series, (column, name) in enumerate(
-            (
-                ("measured", "measured"),
-                ("predicted", "Theorem 1, p of the first step"),
-                ("predicted_all_steps", "Theorem 1, r of all steps"),
-            )
+        for series, column, name in (
+            (2, "predicted_all_steps", "Theorem 1, r of all steps"),
+            (1, "predicted", "Theorem 1, p of the first step"),
+            (0, "measured", "measured"),
         )
     ]
     return style.Panel(
         traces,
-        style.number_of_points(evidence.design.sizes),
+        style.number_of_points(evidence.design.sizes, columns=2),
         style.axis(""),
         statistic.capitalize(),
     )

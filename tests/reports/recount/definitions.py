@@ -49,8 +49,9 @@ DEFINITIONS: dict[str, frozenset[str]] = {
         {
             "A dot is one triangulation; it is drawn at its number of points.",
             "A line that rises says that long paths start at the edge.",
-            "A square is the second group's mean less the first's; a dot marks pairs that "
-            "cannot be told apart.",
+            "It ends where fewer than 100 paths are left.",
+            "A square is the second group's mean less the first's, blue where it is larger "
+            "and orange where it is smaller; a dot marks pairs that cannot be told apart.",
             "Above the whole mesh, below its interior, where there is one.",
             "At the left end are all triangles: there the share is that of the edge in the mesh.",
             "Bars are 95 % intervals of the means.",
@@ -100,12 +101,11 @@ DEFINITIONS: dict[str, frozenset[str]] = {
     ),
     "what the page does, and why": frozenset(
         {
+            "Figure N and Table 7 have it for the comparison with the paper; all else on this page "
+            "goes by weighted fits, which do not suppose it.",
             "Figure N shows the means of all distributions.",
             "Delaunay triangulations are other meshes: that they differ is no failure to "
             "reproduce.",
-            "Least squares takes all variances to be equal, which they are not: Figure N and "
-            "Table 7 have it for the comparison with the paper, and all else on this page goes "
-            "by weighted fits.",
             "The plain insertion method, the paper's, inserts the points as they come and never "
             "flips an edge; the Delaunay method makes triangles that are as far from thin as "
             "the points allow.",

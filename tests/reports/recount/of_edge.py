@@ -94,10 +94,11 @@ def spans(v: View, s: Sheet, k: int) -> str:
         n = max(max(g) for g in groups.values())
         last = [g[n].mean() for g in groups.values() if n in g]
         words.append(
-            f"the {part} means of the {s(len(last))} {plural(len(last), 'distribution')} lie from "
-            f"{s(min(last))} to {s(max(last))}"
+            f"of {s(len(last))} {plural(len(last), 'distribution')} in the "
+            f"{'whole mesh' if part == WHOLE else 'interior'} lie between {s(min(last))} and "
+            f"{s(max(last))}"
         )
-    return f"At {s(max(v.run.sizes))} points {' and '.join(words)}."
+    return f"At {s(max(v.run.sizes))} points the means {words[0]}, those {words[1]}."
 
 
 @recount("layers", "At ")
@@ -155,7 +156,7 @@ def layers_off_interior(v: View, s: Sheet, k: int) -> str:
     )
 
 
-@recount("figure-layers", "The layer furthest above")
+@recount("figure-layers", "(The layer furthest above|No layer)")
 def furthest_layers(v: View, s: Sheet, k: int) -> str:
     words = []
     for d in v.run.distributions:
@@ -167,6 +168,8 @@ def furthest_layers(v: View, s: Sheet, k: int) -> str:
             layer = f"{s(means.idxmax())} ({s(means.max())})"
         words.append(f"{WORDS[d]} points, {layer}")
     begins = f"which begins at layer {INTERIOR_LAYER}"
+    if all(word.endswith(", none") for word in words):
+        return f"No layer is shown to lie above the interior, {begins}, for any distribution."
     return f"The layer furthest above the interior, {begins}: {'; '.join(words)}."
 
 
@@ -178,26 +181,27 @@ def long_paths(run: Run, method: str, distribution: str) -> pd.DataFrame:
     return frame.groupby(["lepp_size", "layer"])["count"].sum().unstack(fill_value=0)
 
 
-def _hundred(counts: pd.DataFrame) -> tuple[int, int, float] | None:
-    """The largest size that 100 paths have or pass, how many do, and the share from the edge."""
+def _hundred(counts: pd.DataFrame) -> tuple[int, int, int] | None:
+    """The largest size that 100 paths have or pass, how many do, and of them start at the edge."""
     for size in sorted(counts.index, reverse=True):
         of = counts[counts.index >= size]
         total = int(of.to_numpy().sum())
         if total >= 100:
             inside = int(of[INTERIOR_LAYER].sum()) if INTERIOR_LAYER in of else 0
-            return size, total, 1 - inside / total
+            return size, total, total - inside
     return None
 
 
 @recount("longest", "Of the ")
 def longest_start(v: View, s: Sheet, k: int) -> str:
     counts = long_paths(*v.key)
-    size, total, share = _hundred(counts)  # type: ignore[misc]
+    size, total, at_edge = _hundred(counts)  # type: ignore[misc]
     n = max(v.run.sizes)
+    edge = edge_share(*v.key, n)
     return (
-        f"Of the {s(total)} paths of {s(size)} triangles and more at {s(n)} points, "
-        f"{s.percent(share)} start at the edge, which has {s.percent(edge_share(*v.key, n))} of "
-        "the triangles."
+        f"Of the {s(total)} paths of {s(size)} triangles and more at {s(n)} points, {s(at_edge)} "
+        f"{plural(max(at_edge, 1), 'starts', 'start')} at the edge; by its share of the triangles, "
+        f"{s.percent(edge)}, {s(total * edge)} would."
     )
 
 
@@ -222,6 +226,13 @@ def longest_by_distribution(v: View, s: Sheet, k: int) -> str:
     for d in v.run.distributions:
         found = _hundred(long_paths(v.run, v.method, d))
         if found:
-            size, _, share = found
-            words.append(f"{s.percent(share)} for {WORDS[d]} points (of {s(size)} and more)")
-    return f"Of the longest paths, so many start at the edge: {', '.join(words)}."
+            size, total, at_edge = found
+            chance = total * edge_share(v.run, v.method, d, max(v.run.sizes))
+            words.append(
+                f"{s(at_edge)} and {s(chance)} of {s(total)} for {WORDS[d]} points (of {s(size)} "
+                "triangles and more)"
+            )
+    return (
+        "Of the longest paths, so many start at the edge, and so many would by its share of the "
+        f"triangles: {'; '.join(words)}."
+    )

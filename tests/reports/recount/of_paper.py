@@ -353,11 +353,7 @@ def which_triangulation(v: View, s: Sheet, k: int) -> str:
             "does not tell which triangulation the paper used."
         )
     if "delaunay" not in tests:
-        return (
-            f"The numbers of the paper are those of {_PLAIN}, so its meshes are not Delaunay "
-            "triangulations, as a user of CGAL would expect: the mean LEPP sizes that it prints "
-            f"agree with this run's {numbers('incremental')}."
-        )
+        return f"{prints} agree with this run's {_PLAIN} {numbers('incremental')}."
     if tests["delaunay"][0] != "differs":
         return (
             f"{prints} agree with {_PLAIN}, and with Delaunay triangulations as well: this run is "
@@ -369,10 +365,10 @@ def which_triangulation(v: View, s: Sheet, k: int) -> str:
     )
 
 
-@recount("key-figures", "Delaunay triangulations were")
+@recount("key-figures", "A user of CGAL")
 def no_delaunay(v: View, s: Sheet, k: int) -> str:
-    was = "were part" if "delaunay" in v.run.methods else "were not part"
-    return f"Delaunay triangulations {was} of this run."
+    has = "has" if "delaunay" in v.run.methods else "does not have"
+    return f"A user of CGAL would expect Delaunay triangulations, which this run {has} to compare."
 
 
 @recount("key-figures", "Delaunay triangulations of the same")

@@ -243,9 +243,9 @@ def theorem_1_sentence(v: View, s: Sheet, k: int) -> str:
     n = max(v.run.sizes)
     p, r, by_p, by_r = off_moments(v, n)
     return (
-        f"At {s(n)} points, with p = {s(p)} of the first step, the measured values lie, against "
-        f"the theorem's, {_lie(by_p, s)}; with r = {s(r)} of all steps the mean fits by "
-        f"construction, and the others lie, {_lie(by_r, s, 'mean')}."
+        f"At {s(n)} points, measured are, against the theorem with p = {s(p)} of the first step, "
+        f"{_lie(by_p, s)}; against it with r = {s(r)} of all steps, where the mean fits by "
+        f"construction, {_lie(by_r, s, 'mean')}."
     )
 
 
@@ -300,7 +300,23 @@ def theorem_2_in_short(v: View, s: Sheet, k: int) -> str:
         return "Theorem 2's bounds fail."
     words = [word for word, *_ in premise_by_size(*v.key).values()]
     step = "step ends a path with a chance of at least 1/3"
-    opening = "Theorem 2's bounds hold in every triangulation,"
+    opening = "Theorem 2's bounds hold in every triangulation"
+    if all_of(words) == "yes":
+        return f"{opening}."
+    if all_of(words) == "undecided":
+        return f"{opening}, while it stays open whether every {step}, from which they would follow."
+    failed = words.count("no")
+    where = f"at {s(failed)} of {s(len(words))} numbers of points, " if failed < len(words) else ""
+    least = s(least_chance(v.key)[0])  # type: ignore[index]
+    return (
+        f"{opening}, although not every {step} ({where}the least is {least}), from which they "
+        "would follow."
+    )
+
+
+@recount("key-figures", "So does what they follow from")
+def premise_in_short(v: View, s: Sheet, k: int) -> str:
+    words = [word for word, *_ in premise_by_size(*v.key).values()]
     if all_of(words) == "yes":
         upto = [row[4] for row in premise_by_size(*v.key).values() if row[4]]
         known = (
@@ -309,18 +325,10 @@ def theorem_2_in_short(v: View, s: Sheet, k: int) -> str:
             else f"up to size {s(min(upto))} to {s(max(upto))}, by the number of points"
         )
         return (
-            f"{opening} and follow from what holds as well, that every {step}, as far as the "
-            f"chances are known to within 0.05 ({known})."
+            "So does what they follow from, that every step ends a path with a chance of at least "
+            f"1/3, as far as the chances are known to within 0.05 ({known})."
         )
-    if all_of(words) == "undecided":
-        return f"{opening} while it stays open whether every {step}, from which they would follow."
-    failed = words.count("no")
-    where = f"at {s(failed)} of {s(len(words))} numbers of points, " if failed < len(words) else ""
-    least = s(least_chance(v.key)[0])  # type: ignore[index]
-    return (
-        f"{opening} although not every {step} ({where}the least is {least}), from which they would "
-        "follow."
-    )
+    return "Not every step is known to end a path with a chance of at least 1/3."
 
 
 @recount("key-figures", "Theorem 1 takes one chance for all steps, ")
@@ -417,7 +425,8 @@ def moments_inside(v: View, s: Sheet, k: int) -> str:
             inside += low <= by_p[name] <= high
             cases += 1
     return (
-        f"Theorem 1's value lies inside the 95 % interval of the measured one in {s(inside)} of "
+        "With p of the first step, Theorem 1's value lies inside the 95 % interval of the "
+        f"measured one in {s(inside)} of "
         f"{s(cases)} cases (four moments at each number of points)."
     )
 

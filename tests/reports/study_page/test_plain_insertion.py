@@ -54,17 +54,15 @@ def evidence(printed: float | None = 3.0661, **verdicts: str) -> Evidence:
         ),
         (
             {"incremental": AGREES},
-            f"The numbers of the paper are those of {PLAIN}, so its meshes are not Delaunay "
-            "triangulations, as a user of CGAL would expect: the mean LEPP sizes that it prints "
-            "agree with this run's (χ² = 15.6 on 20 degrees of freedom, p = 0.7413). Delaunay "
-            "triangulations were not part of this run.",
+            f"The mean LEPP sizes that the paper prints agree with this run's {PLAIN} "
+            "(χ² = 15.6 on 20 degrees of freedom, p = 0.7413). A user of CGAL would expect "
+            "Delaunay triangulations, which this run does not have to compare.",
         ),
         (
             {"incremental": TOO_CLOSE},
-            f"The numbers of the paper are those of {PLAIN}, so its meshes are not Delaunay "
-            "triangulations, as a user of CGAL would expect: the mean LEPP sizes that it prints "
-            "agree with this run's (χ² = 15.6 on 20 degrees of freedom, p = 1.0000). Delaunay "
-            "triangulations were not part of this run.",
+            f"The mean LEPP sizes that the paper prints agree with this run's {PLAIN} "
+            "(χ² = 15.6 on 20 degrees of freedom, p = 1.0000). A user of CGAL would expect "
+            "Delaunay triangulations, which this run does not have to compare.",
         ),
         (
             {"incremental": DIFFERS},

@@ -40,7 +40,7 @@ def prose(section: object, part_of: int = 0) -> str:
 def test_bounds_and_premise(evidence: Evidence) -> None:
     held = altered(evidence, "theorem_2", premise="yes")
     said = prose(summary.section(held))
-    assert "hold in every triangulation, and follow from what holds as well, that every" in said
+    assert "hold in every triangulation. So does what they follow from, that every" in said
     broken = altered(evidence, "theorem_2", bounds="no")
     assert "Theorem 2's bounds fail" in prose(summary.section(broken))
     unfounded = altered(evidence, "theorem_2", premise="no", lowest_rate=0.2)

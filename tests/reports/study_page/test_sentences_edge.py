@@ -1,5 +1,6 @@
 """What the report says of the edge and the interior, on runs made one way and the other."""
 
+import re
 from dataclasses import replace
 
 import pandas as pd
@@ -10,7 +11,7 @@ from made_runs import page
 from lepp import INTERIOR_LAYER
 from reports.page.views import View
 from reports.study_page.sections import edge
-from study.analysis.part_means import COMMON_MEANS, LAYER_MEANS, PART_MEANS
+from study.analysis.part_means import COMMON_MEANS, LAYER_MEANS, LONGEST_PATHS, PART_MEANS
 
 VIEW_OF = View("incremental", "uniform")
 VIEW = {"method": "incremental", "distribution": "uniform"}
@@ -76,7 +77,8 @@ def test_the_layers_of_the_highest_mean_and_of_the_longest_paths(edge):
         f"most start in layer {layer}."
     ) in longest
     of_long = (
-        f"Of the {12 * paths:,} paths of {size} triangles and more at 2,000,000 points, 100.0 %"
+        f"Of the {12 * paths:,} paths of {size} triangles and more at 2,000,000 points, "
+        f"{12 * paths:,} start at the edge; by its share of the triangles, "
     )
     assert (of_long in longest) == (12 * paths >= 100)
 
@@ -85,19 +87,61 @@ def test_longest_paths_of_the_interior():
     # nothing at the edge is longer than in the interior
     text = grown("saturating", "level", edge=(5, 2, 30))
     assert "and most start in the interior." in text.prose("longest")
-    assert "of 4 triangles and more at 2,000,000 points, 0.0 % start at the edge" in text.prose(
-        "longest"
+    row = text.evidence.rows(LONGEST_PATHS, **VIEW, lepp_size=4).first
+    seen = row["paths"] - row["interior_paths"]
+    expected = f"{row['paths'] * row['edge_triangles']:,.1f}"
+    assert (
+        f"of 4 triangles and more at 2,000,000 points, {seen:,} start at the edge; by its share of "
+        f"the triangles, {100 * row['edge_triangles']:.2f} %, {expected} would."
+    ) in text.prose("longest")
+    said = text.finding("figure-longest")
+    assert f": {seen:,} and {expected} of {row['paths']:,} for uniform points (of 4 " in said
+
+
+@pytest.mark.parametrize(
+    ("at_edge", "words"), [(0, "none starts"), (1, "1 starts"), (2, "2 start"), (159, "159 start")]
+)
+def test_long_paths_that_start_at_the_edge(at_edge, words):
+    evidence = grown("saturating", "level", edge=(5, 2, 30)).evidence
+    table = evidence.tables["longest_paths"]
+    frame = table.frame.assign(
+        paths=159, interior_paths=159 - at_edge, edge_triangles=0.0072, edge_share=at_edge / 159
     )
+    changed = replace(evidence, tables=evidence.tables.adding(replace(table, frame=frame)))
+    (said,) = edge._longest(changed, VIEW_OF)
+    assert f"points, {words} at the edge; by its share of the triangles, 0.72 %, 1.1 would." in (
+        said.replace("\u00a0", " ")
+    )
+    found = edge._figure_longest(changed).alternatives[VIEW_OF.key]
+    assert f": {at_edge} and 1.1 of 159 for uniform points" in found
+
+
+def test_lines_of_long_paths_end_where_few_are_left():
+    evidence = grown("saturating", "level").evidence
+    table = evidence.tables["longest_paths"]
+    last = table.frame["lepp_size"] == table.frame["lepp_size"].max()
+    for paths, left in ((100, 0), (99, 1)):
+        frame = table.frame.assign(paths=table.frame["paths"].where(~last, paths))
+        changed = replace(evidence, tables=evidence.tables.adding(replace(table, frame=frame)))
+        drawn = edge._figure_longest(changed).specs[VIEW_OF.key]["data"][0]
+        rows = evidence.rows(LONGEST_PATHS, **VIEW).frame
+        assert len(drawn["x"]) == len(rows) - left
 
 
 def test_figures_have_all_distributions():
     text = grown("saturating", "level")
     said = text.finding("figure-parts")
-    assert said.startswith("At 2,000,000 points the whole means of the 2 distributions lie from ")
+    assert said.startswith(
+        "At 2,000,000 points the means of 2 distributions in the whole mesh lie between "
+    )
+    assert ", those of 2 distributions in the interior lie between " in said
     assert "begins at layer 30: uniform points, 5 (4.24); exponential points, 5 (4" in text.finding(
         "figure-layers"
     )
-    assert "100.0 % for uniform points (of 20 and more)" in text.finding("figure-longest")
+    said = text.finding("figure-longest")
+    assert " for uniform points (of 20 triangles and more); " in said
+    seen, of = re.search(r": (\S+) and \S+ of (\S+) for uniform", said).groups()
+    assert seen == of
     for figure in ("figure-parts", "figure-layers", "figure-longest"):
         (block,) = (
             block
@@ -114,8 +158,10 @@ def test_figures_have_all_distributions():
     [
         (["below", "below", "above"], "is below it in layer 0 and above it in layer 2, most"
             " in layer 2, at ", "uniform points, 2 ("),
-        (["below", "not shown", "below"], "is below it in layers 0 and 2.", "uniform points, none"),
-        (["not shown"] * 3, "is not shown to differ from it in any layer.", "uniform points, none"),
+        (["below", "not shown", "below"], "is below it in layers 0 and 2.",
+            "No layer is shown to lie above the interior, which begins at layer 30, for any"),
+        (["not shown"] * 3, "is not shown to differ from it in any layer.",
+            "No layer is shown to lie above the interior, which begins at layer 30, for any"),
     ],
 )  # fmt: skip
 def test_layers_are_named_by_what_tests_of_them_show(words, sentence, figure):

@@ -3,11 +3,13 @@
 import re
 
 import numpy as np
+import pandas as pd
 import pytest
 from grown_runs import CURVES, grown
 from made_runs import DESIGN, drawn, page, page_text, run
 from statsmodels.regression.linear_model import OLS
 
+from reports.study_page.sections.regressions import _heights
 from study.analysis import limits, model_scores, regressions
 from study.analysis.limits import EDGE_LIMITS, LIMIT_VERDICTS
 
@@ -283,6 +285,28 @@ def test_figures_draw_the_models_that_they_are_about():
     )
     end = next(t for t in traces if t["name"] == "end of the sizes fitted")
     assert end["x"] == [200_000, 200_000]
+
+
+def test_a_curve_that_leaves_the_means_does_not_squeeze_the_others():
+    means = pd.Series([3.05, 3.07])
+    curves = pd.DataFrame(
+        {
+            "model": ["edge", "edge", "quadratic", "quadratic"],
+            "prediction": [3.05, 3.08, 3.06, -5.0],
+        }
+    )
+    assert _heights(means, curves) == pytest.approx((3.045, 3.085))
+    assert _heights(means, curves[:0]) == pytest.approx((3.045, 3.075))
+
+
+def test_only_extrapolations_are_drawn_beyond_the_sizes():
+    text = grown("saturating", "slow")
+    ends = {}
+    for part, name in (("fits", "figure-projections"), ("table-7", "figure-models")):
+        (block,) = (b for b in text.blocks(part) if getattr(b, "id", "") == name)
+        ends[name] = 10 ** block.specs["incremental/uniform"]["layout"]["xaxis"]["range"][1]
+    assert ends["figure-projections"] > 20_000_000
+    assert 2_000_000 < ends["figure-models"] < 3_000_000
 
 
 def test_curves_of_the_papers_models_are_least_squares():

@@ -8,6 +8,9 @@ from scipy import stats
 
 from study.text.numbers import p_value_from_log10
 
+HOLM = (
+    "After Holm's correction, which lets a false rejection through in one in twenty such studies,"
+)
 SIZES = (1000, 2000, 4000, 8000)
 
 
@@ -109,6 +112,14 @@ def test_pairs_of_groups(name):
     assert differ == {"level": 0, "growing": 6}[name]
 
 
+@pytest.mark.parametrize(("name", "sign"), [("growing", 1), ("falling", -1)])
+def test_colours_of_pairs_say_which_way_the_means_go(name, sign):
+    (block,) = (b for b in page(name).blocks("anova") if getattr(b, "id", "") == "figure-pairs")
+    squares = block.specs["incremental/uniform"]["data"][0]
+    assert (sign * np.array(list(squares["z"])) > 0).all()
+    assert squares["zmin"] == -squares["zmax"] == -max(abs(z) for z in squares["z"])
+
+
 @pytest.mark.parametrize("name", ["growing", "near 4"])
 def test_bounds_of_the_mean(name):
     samples = groups(name)
@@ -152,6 +163,29 @@ def test_equal_variances(name):
     ) in said
 
 
+def test_equal_variances_about_one_centre_only():
+    mean, median = (stats.levene(*groups("skewed"), center=c) for c in ("mean", "median"))
+    assert mean.pvalue < 0.05 < median.pvalue
+    assert (
+        "Whether the groups' variances are equal depends on the centre: "
+        f"Levene's F(3, 28) is {mean.statistic:.2f}, p = {p_text(mean.pvalue)}."
+    ) in page("skewed").prose("assumptions")
+
+
+@pytest.mark.parametrize(
+    ("name", "found"),
+    [
+        ("narrowing", "which Levene's test rejects (p = {})"),
+        ("level", "which Levene's test does not reject (p = {})"),
+        ("skewed", "which Levene's test rejects about one centre of the groups but not the other"),
+    ],
+)
+def test_what_least_squares_supposes(name, found):
+    p = stats.levene(*groups(name), center="mean").pvalue
+    said = page(name).prose("table-7")
+    assert f"all variances to be equal, {found.format(p_text(p))}. " in said
+
+
 @pytest.mark.parametrize("name", ["drawn", "out of bounds"])
 def test_normal_groups(name):
     p = np.array([stats.shapiro(s).pvalue for s in groups(name)])
@@ -163,9 +197,9 @@ def test_normal_groups(name):
         page(name)
         .prose("assumptions")
         .endswith(
-            f"Shapiro-Wilk gives p below 0.05 in {none.get(below, below)} of 4 groups; one in "
-            f"twenty would by chance. After Holm's correction {none.get(rejected, rejected)} "
-            f"{'is' if rejected == 1 else 'are'} rejected as normal"
+            f"Shapiro-Wilk gives p below 0.05 in {none.get(below, below)} of 4 groups; by "
+            f"chance alone it would in 0.2. {HOLM} {none.get(rejected, rejected)} "
+            f"{'is' if rejected < 2 else 'are'} rejected as normal"
             + ("." if rejected else ", which does not show that they are normal.")
         )
     )
@@ -209,7 +243,7 @@ def test_randomness_of_the_points(name):
     )
     assert f"About {len(p) * 0.05:.0f} would, even with perfect points." in said
     none = "none rejects" if rejected == 0 else f"{rejected} reject{'' if rejected > 1 else 's'}"
-    assert said.endswith(f"After Holm's correction {none}.")
+    assert said.endswith(f"{HOLM} {none}.")
 
 
 @pytest.mark.parametrize("name", ["drawn", "poor points"])

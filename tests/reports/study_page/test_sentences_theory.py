@@ -88,8 +88,8 @@ def test_opening_on_the_theorems():
     least_k, most_k = upto["upto_size"].min(), upto["upto_size"].max()
     known = f"{least_k} to {most_k}, by the number of points" if least_k < most_k else str(most_k)
     assert (
-        f"{bounds}, and follow from what holds as well, that {need}, as far as the chances are "
-        f"known to within 0.05 (up to size {known})."
+        f"{bounds}. So does what they follow from, that {need}, as far as the chances are known to "
+        f"within 0.05 (up to size {known})."
     ) in page("high p").prose("key-figures")
     assert (
         f"{bounds}, although not {need} (the least is {least('low p')[0]:.4f}), from which they "
@@ -133,10 +133,9 @@ def test_moments_are_held_against_theorem_1():
     first, all_steps = words(p), words(r)[1:]
     said = page("drawn").prose("theorem-1")
     assert said.endswith(
-        f"At 8,000 points, with p = {p:.4f} of the first step, the measured values lie, against "
-        f"the theorem's, {', '.join(first[:3])} and {first[3]}; with r = {r:.4f} of all steps the "
-        f"mean fits by construction, and the others lie, {', '.join(all_steps[:2])} and "
-        f"{all_steps[2]}."
+        f"At 8,000 points, measured are, against the theorem with p = {p:.4f} of the first step, "
+        f"{', '.join(first[:3])} and {first[3]}; against it with r = {r:.4f} of all steps, where "
+        f"the mean fits by construction, {', '.join(all_steps[:2])} and {all_steps[2]}."
     )
 
 
@@ -201,7 +200,8 @@ def test_intervals_that_hold_theorem_1_are_counted():
                 )
                 inside += low <= value <= high
         assert page(name).finding("figure-moments") == (
-            f"Theorem 1's value lies inside the 95 % interval of the measured one in {inside} of "
+            "With p of the first step, Theorem 1's value lies inside the 95 % interval of the "
+            f"measured one in {inside} of "
             "16 cases (four moments at each number of points)."
         )
     assert inside == 0

@@ -180,6 +180,21 @@ def test_tables_are_filtered_and_downloaded_as_shown(open_report: Open) -> None:
     assert host.locator("tbody tr").count() == 0
 
 
+def test_a_note_is_of_the_columns_that_are_shown(open_report: Open) -> None:
+    page = open_report()
+    criteria, lack = "AIC and BIC are on the scale of y", "Lack of fit compares"
+    page.locator("#table-regressions-weighted summary").click()
+    weighted, of_paper = (
+        page.locator(f"#{place} .note").inner_text()
+        for place in ("table-regressions-weighted", "table-regressions")
+    )
+    assert criteria in weighted
+    assert lack in weighted
+    assert lack in of_paper
+    assert criteria not in of_paper
+    assert weighted.count(criteria) == 1
+
+
 @pytest.mark.parametrize(("width", "scheme"), [(390, "dark"), (390, "light"), (1280, "light")])
 def test_no_table_is_clipped_without_a_sign(open_report: Open, width: int, scheme: str) -> None:
     page = open_report(viewport={"width": width, "height": 900}, color_scheme=scheme)

@@ -236,11 +236,12 @@ def test_normal_groups():
     part = "The groups are normal"
     rows = {"p": [0.04, 0.05, 0.6, 0.049, 0.7], "normal": ["not rejected"] * 5}
     assert judged(part, shapiro=rows) == (
-        "not rejected", "2 of 5 groups below 0.05, 0 after Holm's correction",
+        "not rejected",
+        "2 of 5 groups below 0.05, where 0.2 would be by chance; 0 after Holm's correction",
     )  # fmt: skip
     rows = {"p": [0.001, 0.6], "normal": ["rejected", "not rejected"]}
     assert judged(part, shapiro=rows) == (
-        "no", "1 of 2 groups below 0.05, 1 after Holm's correction",
+        "no", "1 of 2 groups below 0.05, where 0.1 would be by chance; 1 after Holm's correction",
     )  # fmt: skip
     assert "too few" in lacking(part, shapiro={"p": [], "normal": []})
 
