@@ -1,7 +1,7 @@
 """The kind of task of the paper: a point set, triangulated by every method of the design."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from time import perf_counter
 from typing import NamedTuple
 
@@ -13,7 +13,7 @@ import lepp
 from study.design.design import Design
 from study.design.sampling import Points, sample_points
 from study.run.kinds import ERROR, WORKER, Cells, Kind, Memory, Outcome, ResultTable, Size
-from study.run.measures import columns_of, fields_of, measure, measured
+from study.run.measures import columns_of, fields_of, measure, measured, values_of
 from study.run.point_checks import PointChecks, check_randomness
 
 #: Memory that a triangulation takes, checks and paths included, as measured for 4 million points.
@@ -217,8 +217,7 @@ class Triangulations(Kind[Task, Design]):
         stages.end("", "sample")
         checks = check_randomness(points, task.distribution)
         stages.end("", "check")
-        rows: dict[str, list[Cells]] = {name: [] for name in self.tables}
-        rows["point_sets"].append(astuple(checks))
+        rows: dict[str, list[Cells]] = {"point_sets": [values_of(checks)]}
         errors = []
         for method in design.methods:
             try:
@@ -228,8 +227,8 @@ class Triangulations(Kind[Task, Design]):
                 errors.append(f"{method}: {words}")
                 made = {"results": [self._without_measures(method, words)]}
             for name, more in made.items():
-                rows[name] += more
-        rows["timings"] += stages.rows
+                rows.setdefault(name, []).extend(more)
+        rows["timings"] = stages.rows
         seconds = sum(row[-1] for row in stages.rows)
         return Outcome(task, rows, seconds, error="; ".join(errors) or None)
 
@@ -246,7 +245,7 @@ class Triangulations(Kind[Task, Design]):
         stages.end(method, "triangulate")
         subject = Measured.of(triangulation)
         rows: dict[str, list[Cells]] = {
-            "results": [(method, *astuple(measured(self.measures, subject)), None)],
+            "results": [(method, *values_of(measured(self.measures, subject)), None)],
             "histograms": _bars(method, subject.counts.counts),
             "layers": _bars(method, subject.by_layer),
             "regions": _bars(method, np.bincount(subject.region_sizes)),
