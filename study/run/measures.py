@@ -7,6 +7,7 @@ in one line of a class such as `study.run.triangulations.Measures`.
 import typing
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields
+from functools import cache
 from typing import Any, TypeVar
 
 import pyarrow as pa
@@ -64,6 +65,12 @@ class MeasureColumn:
         return {int: "int64", float: "float64", str: "str"}[self.type]
 
 
+@cache
+def _types_of(measures: type) -> dict[str, type]:
+    return typing.get_type_hints(measures)
+
+
+@cache
 def columns_of(measures: type) -> tuple[MeasureColumn, ...]:
     """Return the columns of a class of measures, or of a named tuple's fields without words.
 
@@ -72,7 +79,7 @@ def columns_of(measures: type) -> tuple[MeasureColumn, ...]:
     tuple of MeasureColumn
         In the order of the fields.
     """
-    types = typing.get_type_hints(measures)
+    types = _types_of(measures)
     return tuple(
         MeasureColumn(
             entry.name,
@@ -92,9 +99,17 @@ def fields_of(task: type) -> list[pa.Field]:
 
 def measured(measures: type[M], subject: object) -> M:
     """Compute every measure of a class; each is of its field's type."""
-    types = typing.get_type_hints(measures)
     described: Any = measures  # a dataclass, which a type variable cannot say
+    types = _types_of(described)
     values = {
         entry.name: types[entry.name](entry.metadata["of"](subject)) for entry in fields(described)
     }
     return measures(**values)
+
+
+def values_of(measures: object) -> tuple[Any, ...]:
+    """Return the values of a class's instance in the order of its fields.
+
+    As `dataclasses.astuple`, which copies each and takes a tenth of a small task's time.
+    """
+    return tuple(vars(measures).values())

@@ -3,7 +3,7 @@
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 from typing import NamedTuple
@@ -18,7 +18,7 @@ from study.design.design import IN_TILES, Design
 from study.design.sampling import Points, sample_points
 from study.run.counted import Counted
 from study.run.kinds import ERROR, WORKER, Cells, Kind, Memory, Outcome, ResultTable, Size, Stage
-from study.run.measures import columns_of, fields_of, measure, measured
+from study.run.measures import columns_of, fields_of, measure, measured, values_of
 from study.run.point_checks import PointChecks, check_randomness
 from study.run.tiled_insertion import LEAST_MEMORY, TiledInsertion
 
@@ -215,8 +215,7 @@ class Triangulations(Kind[Task, Design]):
         stages.end("", "sample")
         checks = check_randomness(points, task.distribution)
         stages.end("", "check")
-        rows: dict[str, list[Cells]] = {name: [] for name in self.tables}
-        rows["point_sets"].append(astuple(checks))
+        rows: dict[str, list[Cells]] = {"point_sets": [values_of(checks)]}
         errors = []
         for method in design.methods:
             try:
@@ -226,8 +225,8 @@ class Triangulations(Kind[Task, Design]):
                 errors.append(f"{method}: {words}")
                 made = {"results": [self._without_measures(method, words)]}
             for name, more in made.items():
-                rows[name] += more
-        rows["timings"] += stages.rows
+                rows.setdefault(name, []).extend(more)
+        rows["timings"] = stages.rows
         seconds = sum(row[-1] for row in stages.rows)
         return Outcome(task, rows, seconds, error="; ".join(errors) or None)
 
@@ -249,7 +248,7 @@ class Triangulations(Kind[Task, Design]):
     def rows_of(self, method: str, counted: Counted) -> dict[str, list[Cells]]:
         """Return the rows of one triangulation in each table."""
         return {
-            "results": [(method, *astuple(measured(self.measures, counted)), None)],
+            "results": [(method, *values_of(measured(self.measures, counted)), None)],
             "histograms": _bars(method, counted.lepp.counts),
             "layers": _bars(method, counted.by_layer),
             "regions": _bars(method, counted.regions),
@@ -296,7 +295,7 @@ class StagedTriangulation:
         """Return the same rows as `Triangulations.perform`."""
         checks, counted, spent = self._insertion.result()
         rows = TRIANGULATIONS.rows_of("incremental", counted)
-        rows["point_sets"] = [astuple(checks)]
+        rows["point_sets"] = [values_of(checks)]
         rows["timings"] = [
             ("" if stage in ("sample", "check") else "incremental", stage, seconds)
             for stage, seconds in spent.items()

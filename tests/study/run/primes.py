@@ -1,13 +1,13 @@
 """A kind of task of a few lines, to see that runs know nothing of triangulations."""
 
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
 import pyarrow as pa
 from pydantic import BaseModel, ConfigDict
 
 from study.run.kinds import ERROR, Kind, Memory, Outcome, ResultTable, Size
-from study.run.measures import columns_of, fields_of, measure, measured
+from study.run.measures import columns_of, fields_of, measure, measured, values_of
 
 
 class PrimeDesign(BaseModel):
@@ -59,7 +59,7 @@ class Primes(Kind):
     def perform(self, task, design):
         numbers = range(max(task.first, 2), task.first + design.length)
         primes = [n for n in numbers if all(n % d for d in range(2, n))]
-        counts = [(*astuple(measured(PrimeMeasures, primes)), None)]
+        counts = [(*values_of(measured(PrimeMeasures, primes)), None)]
         return Outcome(task, {"counts": counts, "numbers": [(p,) for p in primes]}, seconds=0.001)
 
     def failed(self, task, design, error):

@@ -23,7 +23,12 @@ OLD = "old"
 def scheduler():
     """A cluster in this process, without workers."""
     with LocalCluster(
-        n_workers=0, threads_per_worker=1, processes=False, protocol="tcp", dashboard_address=None
+        n_workers=0,
+        threads_per_worker=1,
+        processes=False,
+        protocol="tcp",
+        dashboard_address=None,
+        scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
     ) as cluster:
         yield cluster
 
