@@ -32,6 +32,8 @@ class Method:
     build : callable
         Takes an (n, 2) float64 array of finite points, C-contiguous; returns `Built`, with no
         triangles where all points lie on one line.
+    bytes_per_point : int
+        Memory that the mesh and its paths take at a time, as measured for 4 million points.
     """
 
     name: str
@@ -39,6 +41,7 @@ class Method:
     word: str
     description: str
     build: Callable[[np.ndarray], Built]
+    bytes_per_point: int = 160
 
 
 METHODS: dict[str, Method] = {
@@ -50,6 +53,7 @@ METHODS: dict[str, Method] = {
             "plain insertion",
             "inserts the points as they come and never flips an edge",
             incremental,
+            158,
         ),
         Method(
             "delaunay",
@@ -57,6 +61,7 @@ METHODS: dict[str, Method] = {
             "Delaunay",
             "makes triangles that are as far from thin as the points allow",
             delaunay,
+            162,
         ),
     )
 }

@@ -22,9 +22,6 @@ from study.run.measures import columns_of, fields_of, measure, measured, values_
 from study.run.point_checks import PointChecks, check_randomness
 from study.run.tiled_insertion import LEAST_MEMORY, TiledInsertion
 
-#: Memory that a triangulation takes, checks and paths included, as measured for 4 million points.
-BYTES_PER_POINT = {"incremental": 158, "delaunay": 162}
-
 
 class Task(NamedTuple):
     """What tells one point set of a study from the others."""
@@ -163,7 +160,7 @@ class Triangulations(Kind[Task, Design]):
     def memory_of(self, task: Task, design: Design) -> Memory:
         """Return what the largest of its triangulations takes; they are made one by one."""
         n = task.n_points
-        each = max(BYTES_PER_POINT[method] for method in design.methods)
+        each = max(lepp.METHODS[method].bytes_per_point for method in design.methods)
         return Memory(f"A triangulation of {n:,} points", n * each)
 
     def is_at_once(self, task: Task, design: Design, memory: float) -> bool:
