@@ -19,7 +19,7 @@ from study.analysis.table import (
     Tables,
 )
 from study.design.design import Design
-from study.design.sampling import sample_points
+from study.design.sampling import sample_block
 from study.paper.published import MEAN_LEPP, SD_BETWEEN
 from study.paper.reproduction import REPRODUCTION
 from study.paper.statements import STATEMENTS
@@ -193,8 +193,9 @@ def sampled_points(design: Design) -> Table:
 
     def rows() -> Iterator[Row]:
         for distribution in design.distributions:
-            points = sample_points(
-                distribution, size, 0, seed=design.seed, correlation=design.correlation
+            # Of its first block only: a set may be larger than memory.
+            points = sample_block(
+                distribution, size, 0, 0, seed=design.seed, correlation=design.correlation
             )[:SCATTER_POINTS]
             key: Row = {"distribution": distribution, "n_points": size}
             for point, (x, y) in zip(np.arange(len(points)), points, strict=True):
