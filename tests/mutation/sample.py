@@ -50,6 +50,7 @@ SLIPS = {
 }
 PREFIX = {"arithmetic": "ReplaceBinaryOperator_", "comparison": "ReplaceComparisonOperator_",
           "unary": "ReplaceUnaryOperator_", "other": ""}  # fmt: skip
+PASSED = (0, 5)  # pytest's exit codes for no failure and for no test chosen
 MEMORY = 6 << 30  # bytes: a change may make an array without end
 
 
@@ -160,6 +161,16 @@ def tests_in(name):
     return sorted((ROOT / name).rglob("test_*.py")) if (ROOT / name).is_dir() else [ROOT / name]
 
 
+def in_turn(file, modules, own_only):
+    """Test modules in the order in which they are run: those of the file's name, then the others.
+
+    The others are left out by `own_only`, if the file has a module of its own.
+    """
+    own = [module for module in modules if module.endswith(f"_{Path(file).stem}.py")]
+    others = [module for module in modules if module not in own]
+    return [some for some in (own, [] if own and own_only else others) if some]
+
+
 class KeptEvidence:
     """A plugin of pytest: keep what runs give evidence of in files, for changes of words only.
 
@@ -233,10 +244,12 @@ def examine(name, target, number, seed, tree):
         place = tree / mutant.file
         before = place.read_text()
         place.write_text(mutant.code)
-        own = Path(mutant.file).stem
-        order = sorted(modules, key=lambda module: not module.endswith(f"_{own}.py"))
-        survived = run_tests(tree, [*order, *options], 10 + 3 * seconds, plugins)[0] == 0
+        survived = all(
+            run_tests(tree, [*some, *options], 10 + 3 * seconds, plugins)[0] in PASSED
+            for some in in_turn(mutant.file, modules, target.get("own_tests", False))
+        )
         place.write_text(before)
+        print("." if not survived else "s", end="", flush=True)
         killed[mutant.file][0] += not survived
         killed[mutant.file][1] += 1
         if survived:
