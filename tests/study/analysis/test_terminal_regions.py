@@ -31,21 +31,34 @@ def test_means_of_triangulations_have_t_intervals(study):
         assert row["max_region"] == group["max_region"].max()
 
 
-def test_regions_are_counted_by_size(study):
-    _, (results, _, regions, *_), tables = study
-    table = of(tables["region_sizes"].frame).set_index("region_size")
-    counts = of(regions).groupby("region_size")["count"].sum()
-    assert table.index.tolist() == counts.index.tolist()
-    assert table["count"].tolist() == counts.tolist()
-    all_regions, all_triangles = of(results)["n_regions"].sum(), of(results)["n_triangles"].sum()
-    np.testing.assert_allclose(table["share"], counts / all_regions)
-    np.testing.assert_allclose(table["share_of_triangles"], counts * counts.index / all_triangles)
-    # The error of a ratio of sums by the spread of its residuals (W. G. Cochran, 1977, eq. 2.39).
-    by_task = of(regions).query("region_size == 2").set_index(["n_points", "replicate"])["count"]
-    each = of(results).set_index(["n_points", "replicate"])["n_regions"]
-    share = table.loc[2, "share"]
-    residuals = by_task.reindex(each.index, fill_value=0) - share * each
-    error = np.sqrt((residuals**2).sum() * len(each) / (len(each) - 1)) / each.sum()
-    half = stats.t.ppf(0.975, len(each) - 1) * error
-    assert table.loc[2, "share_low"] == pytest.approx(share - half)
-    assert table.loc[2, "share_high"] == pytest.approx(share + half)
+def test_region_sizes_hold_every_triangle(study):
+    _, (results, *_), tables = study
+    frame = tables["region_sizes"].frame
+    for (method, distribution), found in frame.groupby(["method", "distribution"]):
+        rows = results[(results["method"] == method) & (results["distribution"] == distribution)]
+        assert found["count"].sum() == rows["n_regions"].sum()
+        assert (found["count"] * found["region_size"]).sum() == rows["n_triangles"].sum()
+        assert found["share"].sum() == pytest.approx(1)
+        share = found["count"] * found["region_size"] / rows["n_triangles"].sum()
+        assert found["share_of_triangles"].to_numpy() == pytest.approx(share.to_numpy())
+
+
+def test_intervals_of_region_sizes_are_those_of_a_jackknife(study):
+    """A share is a ratio of sums: leave out one triangulation after the other."""
+    _, (_, _, regions, _, _), tables = study
+    one = {"method": "delaunay", "distribution": "uniform"}
+    rows = tables["region_sizes"].rows(**one).frame.set_index("region_size")
+    of_one = regions[(regions["method"] == "delaunay") & (regions["distribution"] == "uniform")]
+    tasks = of_one.groupby(["n_points", "replicate"])
+    for size in (2, 3):
+        counts = np.array(
+            [task.loc[task["region_size"] == size, "count"].sum() for _, task in tasks]
+        )
+        totals = tasks["count"].sum().to_numpy()
+        left_out = (counts.sum() - counts) / (totals.sum() - totals)
+        r = len(totals)
+        error = np.sqrt((r - 1) / r * ((left_out - left_out.mean()) ** 2).sum())
+        half = stats.t.ppf(0.975, r - 1) * error
+        row = rows.loc[size]
+        assert (row["share_low"] + row["share_high"]) / 2 == pytest.approx(row["share"])
+        assert row["share_high"] - row["share"] == pytest.approx(half, rel=0.05)
