@@ -347,6 +347,8 @@ def test_best_of_the_four_models():
     assert judged(BEST, regressions=fits(scores)) == (
         "no", "quadratic 0.441, logarithmic 0.441, linear 0.330, logistic 0.300",
     )  # fmt: skip
+    scores["linear"] = 0.5
+    assert judged(BEST, regressions=fits(scores))[0] == "no"
     del scores["logistic"]
     why = lacking(BEST, regressions=other + more + fits(scores))
     assert why == "not all four models could be fitted"
