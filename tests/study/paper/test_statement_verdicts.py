@@ -272,7 +272,7 @@ def test_means_below_4_and_above_2():
         wrong = rows | {column: [*rows[column]]}
         wrong[column][place] = value
         assert judged(part, bounds=wrong)[0] == "no"
-        wrong[column][place] = {"mean_low": 3.999, "mean_high": 2.001}[column]
+        wrong[column][place] = {"mean_low": 4.0, "mean_high": 2.0}[column]
         assert judged(part, bounds=wrong)[0] == "not shown"
     assert "too few" in lacking(part, bounds={"verdict": [], "log10_p": []})
 
