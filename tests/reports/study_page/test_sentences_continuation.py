@@ -49,14 +49,16 @@ def law(name: str, part: str = "interior", **values: object) -> dict:
     return KEY | numbers | counts | {"law": name, "part": part} | values
 
 
-def said(rows: list, laws: list, **asked: object) -> str:
-    """The caption of the figure of the chances."""
-    tables = [TERMINATION.table([]), LAW.table([]), CONTINUATION.table(rows), PATH_LAWS.table(laws)]
+def caption(name: str, tables: list, **asked: object) -> str:
+    """The caption of a figure of the chances."""
     made = continuation.going_on(Evidence(Tables(tables), design(**asked), {}))
-    (figure,) = (
-        b for b in made.blocks if isinstance(b, FigureBlock) and b.id == "figure-continuation"
-    )
+    (figure,) = (b for b in made.blocks if isinstance(b, FigureBlock) and b.id == f"figure-{name}")
     return str(figure.alternatives.get(VIEW.key, "")).replace("\u00a0", " ")
+
+
+def said(rows: list, laws: list, **asked: object) -> str:
+    tables = [TERMINATION.table([]), LAW.table([]), CONTINUATION.table(rows), PATH_LAWS.table(laws)]
+    return caption("continuation", tables, **asked)
 
 
 LAWS = [law(CONSTANT, verdict=REJECTED)]
@@ -211,6 +213,58 @@ def test_of_the_whole_mesh_where_there_is_no_interior():
     assert text.startswith("At 8,000 points, in the whole mesh, the chance to go on ")
     assert "rises again" not in text
     assert said([], []) == ""
+
+
+def law_said(p: float, shares: Rates) -> str:
+    """The caption of the geometric law, which has no triangles of size 1."""
+    rows = [
+        VIEW.where
+        | {
+            "lepp_size": k,
+            "share": share,
+            "geometric_share": (1 - p) ** (k - 2) * p if k > 1 else 0,
+        }
+        for k, share in shares.items()
+    ]
+    ended = [VIEW.where | {"lepp_size": k, "p_type_c": p} for k in shares]
+    tables = [
+        TERMINATION.table(ended),
+        LAW.table(rows),
+        CONTINUATION.table([]),
+        PATH_LAWS.table([]),
+    ]
+    return caption("law", tables)
+
+
+@pytest.mark.parametrize(
+    ("shares", "words"),
+    [
+        (
+            {1: 0.6, 2: 0.1, 3: 0.3},
+            "The commonest size is 3 (30.0 % of the triangles; the law has 25.0 %).",
+        ),
+        # Half of the paths go on: in the law a share of 2⁻⁶ is of 8 triangles and more.
+        (
+            {2: 0.5, 7: 0.4375, 8: 2**-5, 9: 2**-5},
+            "The commonest size is 2 (50.0 % of the triangles; the law has 50.0 %). Sizes of 8 and "
+            "more are 4.0 times as common as in the law.",
+        ),
+        (
+            {2: 0.5, 7: 0.492, 8: 2**-8, 9: 2**-8},
+            "The commonest size is 2 (50.0 % of the triangles; the law has 50.0 %). Sizes of 8 and "
+            "more are 2.0 times rarer than in the law.",
+        ),
+        (
+            {2: 0.5, 7: 0.48, 8: 2**-6},
+            "The commonest size is 2 (50.0 % of the triangles; the law has 50.0 %). Sizes of 8 and "
+            "more are 1.0 times as common as in the law.",
+        ),
+        ({}, ""),
+        ({1: 1.0}, ""),
+    ],
+)  # fmt: skip
+def test_the_geometric_law(shares, words):
+    assert law_said(0.5, shares) == words
 
 
 # Theorem 2's premise, at the edge
