@@ -215,6 +215,29 @@ def test_of_the_whole_mesh_where_there_is_no_interior():
     assert said([], []) == ""
 
 
+@pytest.mark.parametrize("part", ["interior", "whole"])
+@pytest.mark.parametrize("verdict", [REJECTED, NOT_REJECTED, None])
+def test_one_chance_for_all_steps(part, verdict):
+    where = {"interior": "in the interior", "whole": "in the whole mesh"}[part]
+    # The whole mesh is not asked where there is an interior.
+    laws = [law(FIRST_STEP, part=part), law(CONSTANT, part="whole", verdict="of the whole mesh")]
+    if part == "whole":
+        laws.pop()
+    if verdict:
+        laws.append(law(CONSTANT, part=part, verdict=verdict))
+    evidence = Evidence(Tables([PATH_LAWS.table(laws)]), design(), {})
+    numbers = f"(F = 1.25 on 7 and 39 degrees of freedom, p = 0.1000, {where})"
+    long, short = {
+        REJECTED: (f"No single chance fits the steps {numbers}, whichever it is.", "rejected"),
+        NOT_REJECTED: (f"That one chance fits all steps is not rejected {numbers}.", NOT_REJECTED),
+        None: ("The run is too small to test whether one chance fits all steps.", ""),
+    }[verdict]
+    assert continuation.one_chance(evidence, VIEW).replace("\u00a0", " ") == long
+    assert continuation.one_chance_in_short(evidence, VIEW).replace("\u00a0", " ") == (
+        f"which is {short} (p = 0.1000)" if verdict else "which this run is too small to test"
+    )
+
+
 def law_said(p: float, shares: Rates) -> str:
     """The caption of the geometric law, which has no triangles of size 1."""
     rows = [

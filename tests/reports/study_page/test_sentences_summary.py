@@ -18,7 +18,8 @@ from study.paper.reproduction import REPRODUCTION
 from study.paper.statements import NOT_TESTED, STATEMENTS
 from study.statistics.verdicts import NO, NOT_REJECTED, NOT_SHOWN, UNDECIDED, YES
 
-VIEWS = [View(m, d) for m in ("incremental", "delaunay") for d in ("uniform", "exponential")]
+METHODS = ("incremental", "delaunay", "swept")  # names on both sides of that of the paper's
+VIEWS = [View(method, d) for method in METHODS for d in ("uniform", "exponential")]
 
 
 def printed(verdict: str, difference: float | None, **where: str) -> dict:
@@ -36,6 +37,8 @@ NUMBERS = [
     printed(DIFFERS, -3.5, distribution="exponential"),
     printed(DIFFERS, 20.0, method="delaunay"),
     printed(DIFFERS, 20.0, method="delaunay", distribution="exponential"),
+    printed(DIFFERS, 20.0, method="swept"),
+    printed(DIFFERS, 20.0, method="swept", distribution="exponential"),
 ]
 
 
@@ -106,6 +109,15 @@ def test_tiles_of_what_was_measured():
     }
     pair = ("45.7 %", "triangles where a refinement stays local")
     assert tiles(VIEWS[3]) == found | {"In a terminal pair": pair}
+
+
+@pytest.mark.parametrize("lacking", [OVERVIEW, TABLE_4], ids=lambda declared: declared.name)
+def test_nothing_is_said_of_what_was_not_run(lacking):
+    tables = {declared: declared.table([VIEWS[0].where]) for declared in (OVERVIEW, TABLE_4)}
+    tables[lacking] = lacking.table([])
+    evidence = Evidence(Tables(tables.values()), design(), {})
+    assert summary._spread(evidence, VIEWS[0]) is None
+    assert summary._tiles(evidence, VIEWS[0]) is None
 
 
 @pytest.mark.parametrize(
