@@ -120,6 +120,13 @@ def test_nothing_is_said_of_what_was_not_run(lacking):
     assert summary._tiles(evidence, VIEWS[0]) is None
 
 
+@pytest.mark.parametrize("lacking", [THEOREM_1, THEOREM_2], ids=lambda declared: declared.name)
+def test_nothing_is_said_of_theorems_that_were_not_tested(lacking):
+    tables = {one: one.table([VIEWS[0].where | {"n_points": 1}]) for one in (THEOREM_1, THEOREM_2)}
+    tables[lacking] = lacking.table([])
+    assert summary._theory(Evidence(Tables(tables.values()), design(), {}), VIEWS[0]) is None
+
+
 @pytest.mark.parametrize(
     ("relative", "words"), [(-0.0123, "1.2 % below"), (0.0, "0.0 % above"), (0.02, "2.0 % above")]
 )
