@@ -245,7 +245,7 @@ def examine(name, target, number, seed, tree):
         before = place.read_text()
         place.write_text(mutant.code)
         survived = all(
-            run_tests(tree, [*some, *options], 10 + 3 * seconds, plugins)[0] in PASSED
+            run_tests(tree, [*some, *options], 5 + 2 * seconds, plugins)[0] in PASSED
             for some in in_turn(mutant.file, modules, target.get("own_tests", False))
         )
         place.write_text(before)
