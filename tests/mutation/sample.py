@@ -14,15 +14,14 @@ to be harmless, and why, in survivors.md. Exits with 1 if a target's tests fail 
 import argparse
 import ast
 import difflib
+import hashlib
 import os
+import pickle
 import random
-import re
 import resource
 import shutil
-import signal
 import sys
 import tempfile
-import time
 import tomllib
 from collections import defaultdict
 from dataclasses import dataclass
@@ -51,6 +50,7 @@ SLIPS = {
 }
 PREFIX = {"arithmetic": "ReplaceBinaryOperator_", "comparison": "ReplaceComparisonOperator_",
           "unary": "ReplaceUnaryOperator_", "other": ""}  # fmt: skip
+PASSED = (0, 5)  # pytest's exit codes for no failure and for no test chosen
 MEMORY = 6 << 30  # bytes: a change may make an array without end
 
 
@@ -74,17 +74,40 @@ def operators():
             yield name, get_operator(f"core/{PREFIX[kind]}{name}")()
 
 
+def functions_of(source):
+    """Names of the functions of a file."""
+    return {n.name for n in ast.walk(ast.parse(source)) if isinstance(n, ast.FunctionDef)}
+
+
 def left_alone(source, functions):
-    """Ranges of annotations and decorators, and of functions whose names match a pattern."""
+    """Ranges of annotations and decorators, and of the functions named."""
     notes = []
     for node in ast.walk(ast.parse(source)):
-        if isinstance(node, ast.FunctionDef) and re.fullmatch(functions, node.name):
+        if isinstance(node, ast.FunctionDef) and node.name in functions:
             notes.append(node)
         notes += [getattr(node, "annotation", None), getattr(node, "returns", None)]
         notes += getattr(node, "decorator_list", [])
     return [
         ((n.lineno, n.col_offset), (n.end_lineno, n.end_col_offset)) for n in notes if n is not None
     ]
+
+
+def left_out(files, patterns):
+    """Names of the functions to leave alone, by file; a name that no file has is an error.
+
+    `patterns` has lists of names by the names of files, or by `*` for all of the files.
+    """
+    there = {file: functions_of(file.read_text()) for file in files}
+    chosen = {file: set() for file in files}
+    for pattern, names in patterns.items():
+        inside = [file for file in files if file.match(pattern)]
+        for name in names:
+            having = [file for file in inside if name in there[file]]
+            if not having:
+                sys.exit(f"not_in: no function {name} in {pattern}")
+            for file in having:
+                chosen[file].add(name)
+    return {str(file.relative_to(ROOT)): names for file, names in chosen.items()}
 
 
 def places(file, source, functions):
@@ -101,14 +124,15 @@ def places(file, source, functions):
     return found
 
 
-def sample(files, number, rng, functions=""):
+def sample(files, number, rng, patterns):
     """Draw mutants: places without replacement, then one of the changes of each; again if few."""
     from cosmic_ray.mutating import mutate_code
 
     sources = {str(file.relative_to(ROOT)): file.read_text() for file in files}
+    alone = left_out(files, patterns)
     by_place = {}
     for file, source in sources.items():
-        by_place |= places(file, source, functions)
+        by_place |= places(file, source, alone[file])
     for choices in by_place.values():
         rng.shuffle(choices)
     drawn, seen = [], set()
@@ -132,13 +156,58 @@ def sample(files, number, rng, functions=""):
     return drawn
 
 
-def run_tests(tree, arguments, limit, output=os.devnull):
-    """Run pytest in a fork: its exit code, or None after `limit` seconds."""
+def tests_in(name):
+    """Test modules of a directory, or the one named."""
+    return sorted((ROOT / name).rglob("test_*.py")) if (ROOT / name).is_dir() else [ROOT / name]
+
+
+def in_turn(file, modules, own_only):
+    """Test modules in the order in which they are run: those of the file's name, then the others.
+
+    The others are left out by `own_only`, if the file has a module of its own.
+    """
+    own = [module for module in modules if module.endswith(f"_{Path(file).stem}.py")]
+    others = [module for module in modules if module not in own]
+    return [some for some in (own, [] if own and own_only else others) if some]
+
+
+class KeptEvidence:
+    """A plugin of pytest: keep what runs give evidence of in files, for changes of words only.
+
+    The evidence is named by a digest of what it is made from.
+    """
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+
+    def pytest_configure(self):
+        """Put the files before the analysis."""
+        from reports.study_page import gather
+
+        made = gather.evidence_of
+        self.folder.mkdir(exist_ok=True)
+
+        def evidence_of(results):
+            asked = pickle.dumps((results.frames, results.manifest, results.design))
+            place = self.folder / hashlib.sha256(asked).hexdigest()
+            if not place.exists():
+                place.write_bytes(pickle.dumps(made(results)))
+            return pickle.loads(place.read_bytes())
+
+        gather.evidence_of = evidence_of
+
+
+def run_tests(tree, arguments, limit, plugins=(), output=os.devnull):
+    """Run pytest in a fork that has `limit` seconds of a processor: exit code, seconds used.
+
+    Seconds of a clock would let a busy machine kill what no test notices.
+    """
     child = os.fork()
     if child == 0:
         os.setsid()
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        resource.setrlimit(resource.RLIMIT_CPU, (int(limit), int(limit)))
         sink = os.open(output, os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
         os.dup2(sink, 1)
         os.dup2(sink, 2)
@@ -148,41 +217,39 @@ def run_tests(tree, arguments, limit, output=os.devnull):
 
             os.chdir(tree)
             sys.path.insert(0, str(tree))
-            code = int(pytest.main(arguments))
+            code = int(pytest.main(arguments, plugins=list(plugins)))
         finally:
             os._exit(code)
-    deadline = time.monotonic() + limit
-    while time.monotonic() < deadline:
-        done, status = os.waitpid(child, os.WNOHANG)
-        if done:
-            return os.waitstatus_to_exitcode(status)
-        time.sleep(0.01)
-    os.killpg(child, signal.SIGKILL)
-    os.waitpid(child, 0)
-    return None
+    _, status, used = os.wait4(child, 0)
+    return os.waitstatus_to_exitcode(status), used.ru_utime + used.ru_stime
 
 
 def examine(name, target, number, seed, tree):
     """Run the tests of a sample of mutants; print the survivors; return (killed, tried)."""
-    arguments = [
-        *target["tests"], *target.get("options", ()), "-x", "-q", "--tb=short", "-W", "ignore",
+    modules = [str(path.relative_to(ROOT)) for name in target["tests"] for path in tests_in(name)]
+    options = [
+        *target.get("options", ()), "-x", "-q", "--tb=short", "-W", "ignore",
         "-p", "no:cacheprovider", "--hypothesis-profile=mutation",
     ]  # fmt: skip
-    begin = time.monotonic()
+    plugins = [KeptEvidence(str(tree / "evidence"))] if target.get("keep_evidence") else []
     log = str(tree / "tests.log")
-    if run_tests(tree, arguments, 600, log) != 0:
+    code, seconds = run_tests(tree, [*modules, *options], 1800, plugins, log)
+    if code != 0:
         print(Path(log).read_text())
         sys.exit(f"{name}: the tests fail as the code stands")
-    limit = 10 + 5 * (time.monotonic() - begin)
     files = sorted(file for pattern in target["files"] for file in ROOT.glob(pattern))
-    mutants = sample(files, number, random.Random(f"{seed} {name}"), target.get("not_in", ""))
+    mutants = sample(files, number, random.Random(f"{seed} {name}"), target.get("not_in", {}))
     killed = defaultdict(lambda: [0, 0])
     for mutant in mutants:
         place = tree / mutant.file
         before = place.read_text()
         place.write_text(mutant.code)
-        survived = run_tests(tree, arguments, limit) == 0
+        survived = all(
+            run_tests(tree, [*some, *options], 5 + 2 * seconds, plugins)[0] in PASSED
+            for some in in_turn(mutant.file, modules, target.get("own_tests", False))
+        )
         place.write_text(before)
+        print("." if not survived else "s", end="", flush=True)
         killed[mutant.file][0] += not survived
         killed[mutant.file][1] += 1
         if survived:

@@ -8,6 +8,14 @@ from study.analysis.analyse import analyse
 from study.paper import published
 
 
+@pytest.fixture(scope="session", autouse=True)
+def _short_worst_case():
+    """No test of a statistic needs a strip of a million triangles."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("study.analysis.worst_case_strip._SIZES", (1, 2, 3))
+        yield
+
+
 @pytest.fixture(scope="session")
 def study():
     """A small study by two methods: design, frames and tables."""
@@ -32,9 +40,3 @@ def paper_study():
         rows.append(group)
     made = (pd.concat(rows, ignore_index=True), *others)
     return asked, made, analyse(*made, asked)
-
-
-@pytest.fixture(autouse=True)
-def _short_worst_case(monkeypatch):
-    """Keep the million triangles for the fixtures above, which are made before."""
-    monkeypatch.setattr("study.analysis.worst_case_strip._SIZES", (1, 2, 3))

@@ -1,5 +1,7 @@
 """The sections of the page, in the order in which a reader asks."""
 
+from types import ModuleType
+
 from markupsafe import Markup
 
 from lepp import METHODS
@@ -41,15 +43,19 @@ COLOPHON = (
 _MOST_ALARMS = 6
 
 
-def all_sections(evidence: Evidence) -> list[Section]:
-    """Make every section that the run gives reason for."""
+def modules_of(evidence: Evidence) -> list[ModuleType]:
+    """List the modules of the sections that the run gives reason for."""
     modules = [path, summary, agreement, theory, statistics, edge, regressions]
     if len(evidence.design.distributions) > 1:
         modules.append(distributions)
     if len(evidence.design.methods) > 1:
         modules.append(methods)
-    modules += [regions, data, provenance]
-    return [module.section(evidence) for module in modules]
+    return [*modules, regions, data, provenance]
+
+
+def all_sections(evidence: Evidence) -> list[Section]:
+    """Make every section that the run gives reason for."""
+    return [module.section(evidence) for module in modules_of(evidence)]
 
 
 def description(evidence: Evidence) -> str:

@@ -8,7 +8,6 @@ from made_runs import METHODS, page, run
 from page_text import PageText
 from scipy import stats
 
-from reports.study_page.sections import summary
 from study.text.numbers import p_value_from_log10, significant
 
 
@@ -174,7 +173,7 @@ def test_one_chance_for_all_steps_is_rejected_or_not():
     untested = kept.tables["path_laws"]
     untested = replace(untested, frame=untested.frame.iloc[:0])
     changed = replace(kept, tables=kept.tables.adding(untested))
-    said = PageText([summary.section(changed)], changed).prose("key-figures")
+    said = PageText(changed).prose("key-figures")
     assert "for all steps, which this run is too small to test. " in said
     outside = page("falling chance, no interior").prose("theorem-1")
     assert "No single chance" in outside

@@ -273,7 +273,7 @@ def test_means_below_4_and_above_2():
         wrong = rows | {column: [*rows[column]]}
         wrong[column][place] = value
         assert judged(part, bounds=wrong)[0] == "no"
-        wrong[column][place] = {"mean_low": 3.999, "mean_high": 2.001}[column]
+        wrong[column][place] = {"mean_low": 4.0, "mean_high": 2.0}[column]
         assert judged(part, bounds=wrong)[0] == "not shown"
     assert "too few" in lacking(part, bounds={"verdict": [], "log10_p": []})
 
@@ -348,6 +348,8 @@ def test_best_of_the_four_models():
     assert judged(BEST, regressions=fits(scores)) == (
         "no", "quadratic 0.441, logarithmic 0.441, linear 0.330, logistic 0.300",
     )  # fmt: skip
+    scores["linear"] = 0.5
+    assert judged(BEST, regressions=fits(scores))[0] == "no"
     del scores["logistic"]
     why = lacking(BEST, regressions=other + more + fits(scores))
     assert why == "not all four models could be fitted"
