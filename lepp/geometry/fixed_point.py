@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from lepp.jit import kernel
+from lepp.jit import inner
 
 _LIMB_BITS = 32
 _LIMB_MASK = 0xFFFFFFFF
@@ -12,7 +12,7 @@ _LIMB_MASK = 0xFFFFFFFF
 _LOWEST_EXPONENT = -1073 - 53
 
 
-@kernel
+@inner
 def add_product(accumulator, weight, factors):
     """Add ``weight * prod(factors)`` to a fixed-point number, exactly.
 
@@ -22,16 +22,19 @@ def add_product(accumulator, weight, factors):
         Limbs of 32 bits, lowest first, carries not propagated; from `new_accumulator`.
     weight : int
         Small: a few times as many products as it says can be added.
-    factors : tuple of float
-        As many as the accumulator was made for.
+    factors : (float, float, float, float)
+        Fewer are filled up with 1.
     """
-    limbs = np.zeros(2 * len(factors) + 1, np.uint64)
+    limbs = np.zeros(9, np.uint64)
     limbs[0] = 1
     n_limbs = 1
     exponent = 0
     for factor in factors:
         if factor == 0.0:
             return
+        if factor == 1.0:
+            exponent -= _LOWEST_EXPONENT
+            continue
         mantissa, factor_exponent = math.frexp(factor)
         if mantissa < 0.0:
             mantissa = -mantissa
@@ -63,14 +66,9 @@ def add_product(accumulator, weight, factors):
         accumulator[first + i + 1] += weight * np.int64(shifted >> np.uint64(_LIMB_BITS))
 
 
-@kernel
-def new_accumulator(degree):
-    """Return a fixed-point zero wide enough for products of `degree` doubles.
-
-    Parameters
-    ----------
-    degree : int
-        At least 1.
+@inner
+def new_accumulator():
+    """Return a fixed-point zero wide enough for products of four doubles.
 
     Returns
     -------
@@ -78,10 +76,10 @@ def new_accumulator(degree):
         Limbs of 32 bits, lowest first, of 2,200 bits a factor: the range of doubles, from the last
         bit of the least to the first bit of the largest, has 2,098.
     """
-    return np.zeros(degree * (2200 // _LIMB_BITS + 1) + 4, np.int64)
+    return np.zeros(4 * (2200 // _LIMB_BITS + 1) + 4, np.int64)
 
 
-@kernel
+@inner
 def accumulator_sign(accumulator):
     """Return the sign of a fixed-point number.
 

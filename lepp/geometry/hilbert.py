@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from lepp.jit import kernel
+from lepp.jit import inner, kernel
 
 _BITS = 16  # of each coordinate; a key, the place along the curve, has twice as many
 _CELLS = 2.0**_BITS - 2.0**-20  # so that the last point is in the last cell, not beyond
@@ -82,7 +82,7 @@ def key_bits(n):
     return min(n_bits, 2 * _BITS)
 
 
-@kernel
+@inner
 def _keys(points):
     """Return the place of each point along the curve through a square about them."""
     x_low = x_high = points[0, 0]
@@ -134,7 +134,7 @@ def hilbert_key(x, y):
     return (key << 8) | (step & 0xFF)
 
 
-@kernel
+@inner
 def _radix_sorted(entries, result, n_bits):
     """Return one of two arrays, with the entries of the first in the order of `n_bits` of key."""
     n_buckets = 1 << _DIGIT_BITS
@@ -158,7 +158,7 @@ def _radix_sorted(entries, result, n_bits):
     return entries
 
 
-@kernel
+@inner
 def _order_runs(points, entries):
     """Order long runs of one key by keys in the box of the run, until none is left."""
     todo = [(0, len(entries))]
@@ -179,7 +179,7 @@ def _order_runs(points, entries):
             first = last
 
 
-@kernel
+@inner
 def _renew_keys(points, entries):
     """Give the entries new keys, in the box of their points."""
     places = np.empty((len(entries), 2))

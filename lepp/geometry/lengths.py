@@ -18,7 +18,7 @@ import numpy as np
 
 from lepp.geometry.fixed_point import accumulator_sign, add_product, new_accumulator
 from lepp.geometry.predicates import EPSILON, UNDERFLOW, difference_is_exact
-from lepp.jit import kernel
+from lepp.jit import inner, kernel
 from lepp.jit.memory import for_kernels
 
 LONGEST = 7
@@ -67,7 +67,7 @@ def edge_ranks(
     return ranks
 
 
-@kernel
+@inner
 def squared_length(dx, dy):
     """Return the rounded square of a length in the plane.
 
@@ -86,7 +86,7 @@ def squared_length(dx, dy):
     return dx * dx + dy * dy
 
 
-@kernel
+@inner
 def squared_length_in_space(points, a, b):
     """Return the rounded square of the length of an edge of a surface.
 
@@ -156,7 +156,7 @@ def rank(across_a, across_b, across_c):
     return longest | shortest | nearly
 
 
-@kernel
+@inner
 def _add_square(accumulator, weight, x, y, w):
     """Add ``weight * (x - y)**2 * (1 + w)**2`` to a fixed-point number, exactly."""
     for u, v, k in ((x, x, weight), (x, y, -2 * weight), (y, y, weight)):
@@ -165,7 +165,7 @@ def _add_square(accumulator, weight, x, y, w):
         add_product(accumulator, k, (u, v, w, w))
 
 
-@kernel
+@inner
 def _compare_exactly(points, a, b, c, d, within):
     """Return the sign of |ab| - |cd| (1 + within), from the coordinates as they are."""
     if within == 0.0:
@@ -177,14 +177,14 @@ def _compare_exactly(points, a, b, c, d, within):
                 other = np.int64((points[c, k] - points[d, k]) * scale)
                 total += one * one - other * other
             return int(total > 0) - int(total < 0)
-    accumulator = new_accumulator(4)
+    accumulator = new_accumulator()
     for k in range(points.shape[1]):
         _add_square(accumulator, 1, points[a, k], points[b, k], 0.0)
         _add_square(accumulator, -1, points[c, k], points[d, k], within)
     return accumulator_sign(accumulator)
 
 
-@kernel
+@inner
 def _common_scale(points, a, b, c, d):
     """Return a power of two that makes small integers of two edges, as lattices have them.
 
@@ -213,7 +213,7 @@ def _common_scale(points, a, b, c, d):
     return scale, True
 
 
-@kernel
+@inner
 def _compare(points, a, b, c, d, square_1, square_2, within, bound):
     """Return the sign of |ab| - |cd| (1 + within), given the rounded squares of both lengths."""
     error = bound * (square_1 + square_2)
@@ -226,14 +226,14 @@ def _compare(points, a, b, c, d, square_1, square_2, within, bound):
     return _compare_exactly(points, a, b, c, d, within)
 
 
-@kernel
+@inner
 def _precedes(a, b, c, d):
     """Tell whether edge ab comes before edge cd by the numbers of their vertices."""
     low_1, low_2 = min(a, b), min(c, d)
     return low_1 < low_2 or (low_1 == low_2 and max(a, b) < max(c, d))
 
 
-@kernel
+@inner
 def _exact_rank(points, vertices, squares, within, bound):
     """Return the rank of a triangle, whatever its lengths.
 

@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from lepp.geometry.fixed_point import accumulator_sign, add_product, new_accumulator
-from lepp.jit import inlined, kernel
+from lepp.jit import inlined, inner, kernel
 
 EPSILON = 2.0**-53
 ORIENTATION_BOUND = (3.0 + 16.0 * EPSILON) * EPSILON
@@ -40,13 +40,13 @@ def exact_orientation(ax, ay, bx, by, cx, cy):
     int
         As `orientation`, which is faster.
     """
-    accumulator = new_accumulator(2)
-    add_product(accumulator, 1, (ax, by))
-    add_product(accumulator, -1, (ax, cy))
-    add_product(accumulator, -1, (ay, bx))
-    add_product(accumulator, 1, (ay, cx))
-    add_product(accumulator, 1, (bx, cy))
-    add_product(accumulator, -1, (by, cx))
+    accumulator = new_accumulator()
+    add_product(accumulator, 1, (ax, by, 1.0, 1.0))
+    add_product(accumulator, -1, (ax, cy, 1.0, 1.0))
+    add_product(accumulator, -1, (ay, bx, 1.0, 1.0))
+    add_product(accumulator, 1, (ay, cx, 1.0, 1.0))
+    add_product(accumulator, 1, (bx, cy, 1.0, 1.0))
+    add_product(accumulator, -1, (by, cx, 1.0, 1.0))
     return accumulator_sign(accumulator)
 
 
@@ -90,7 +90,7 @@ def difference_is_exact(a, b, difference):
     return rounding == 0.0 and (difference == 0.0 or _PRODUCT_MIN < magnitude < _PRODUCT_MAX)
 
 
-@kernel
+@inner
 def uncertain_orientation(ax, ay, bx, by, cx, cy):
     """Return the sign of `orientation` where the floating filter has failed.
 
@@ -253,7 +253,7 @@ _PERMANENT_BOUND = (10.0 + 96.0 * EPSILON) * EPSILON
 _SMALL_BITS = 14
 
 
-@kernel
+@inner
 def _add_minor(accumulator, sign, ax, ay, bx, by, cx, cy):
     """Add the determinant of rows (x, y, x * x + y * y) to a fixed-point number, exactly."""
     for x, y, x1, y1, x2, y2 in (
@@ -281,7 +281,7 @@ def exact_in_circle(ax, ay, bx, by, cx, cy, px, py):
     int
         As `in_circle`, which is faster.
     """
-    accumulator = new_accumulator(4)
+    accumulator = new_accumulator()
     _add_minor(accumulator, 1, ax, ay, bx, by, cx, cy)
     _add_minor(accumulator, -1, ax, ay, bx, by, px, py)
     _add_minor(accumulator, 1, ax, ay, cx, cy, px, py)
@@ -289,7 +289,7 @@ def exact_in_circle(ax, ay, bx, by, cx, cy, px, py):
     return accumulator_sign(accumulator)
 
 
-@kernel
+@inner
 def _exact_in_circle_of_differences(ax, ay, bx, by, cx, cy):
     """Return the sign of `in_circle` from exact coordinates relative to p.
 
@@ -314,12 +314,12 @@ def _exact_in_circle_of_differences(ax, ay, bx, by, cx, cy):
             + (cx_i * cx_i + cy_i * cy_i) * (ax_i * by_i - bx_i * ay_i)
         )
         return int(determinant > 0) - int(determinant < 0)
-    accumulator = new_accumulator(4)
+    accumulator = new_accumulator()
     _add_minor(accumulator, 1, ax, ay, bx, by, cx, cy)
     return accumulator_sign(accumulator)
 
 
-@kernel
+@inner
 def uncertain_in_circle(ax, ay, bx, by, cx, cy, px, py):
     """Return the sign of `in_circle` where its first floating filter has failed.
 

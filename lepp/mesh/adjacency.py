@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from lepp.jit import kernel
+from lepp.jit import inner, kernel
 
 NON_MANIFOLD, FOLDED, TWINNED = 1, 2, 4
 """Flags of a triangle: it shares an edge with two or more others; it runs along an edge in the same
@@ -63,7 +63,7 @@ def link_triangles(triangles, n_points, neighbors):
     return flags
 
 
-@kernel
+@inner
 def _counting_sort(order, keys, n_keys):
     """Return `order` sorted, stably, by `keys[order]`."""
     end = np.zeros(n_keys + 1, np.int64)

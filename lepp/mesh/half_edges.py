@@ -13,12 +13,12 @@ triangle with each edge of the hull.
 
 import numpy as np
 
-from lepp.jit import kernel
+from lepp.jit import inner, kernel
 
 _U0, _U1, _U2, _U3 = (np.uint64(k) for k in (0, 1, 2, 3))
 
 
-@kernel
+@inner
 def next_of(h):
     """Return the half-edge after h, counter-clockwise, in its triangle.
 
@@ -34,7 +34,7 @@ def next_of(h):
     return h - _U2 if h & _U3 == _U2 else h + _U1
 
 
-@kernel
+@inner
 def previous_of(h):
     """Return the half-edge before h in its triangle.
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from lepp.jit import kernel
+from lepp.jit import inner, kernel
 
 
 @kernel
@@ -52,7 +52,7 @@ def choose_edges(triangles, neighbors, ranks):
     return sizes, edges, ends
 
 
-@kernel
+@inner
 def _best_way(triangles, neighbors, ranks, sizes, ends, t):
     """Return the smallest size that the longest edges of a triangle give, and by which.
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from lepp.errors import InputError
 from lepp.geometry.predicates import turn_is_certain
-from lepp.jit import kernel
+from lepp.jit import inner, kernel
 from lepp.jit.memory import for_kernels
 from lepp.triangulate.plain.hull import sweep_hull
 from lepp.triangulate.plain.incremental import incremental
@@ -146,7 +146,7 @@ def _outside(below, above, points):
     return result
 
 
-@kernel
+@inner
 def _is_beside(chain, x, y, side):
     """Tell whether a point certainly is to the left (1) or right (-1) of a chain."""
     low, high = 0, len(chain) - 1

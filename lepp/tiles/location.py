@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lepp.geometry.predicates import orient
-from lepp.jit import kernel
+from lepp.jit import inner, kernel
 from lepp.jit.memory import for_kernels, in_one_block
 from lepp.tiles.coarse import CoarseMesh
 from lepp.triangulate.plain.hull import sweep_hull
@@ -200,7 +200,7 @@ def _descend(points, n_coarse, roots, starts, room, lists, repeats, placed, corn
     return n_tiles
 
 
-@kernel
+@inner
 def _push(jobs, k, vertices, spans):
     """Write down a triangle whose points are to be partitioned."""
     job = jobs[k]

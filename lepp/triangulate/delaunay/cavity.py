@@ -8,14 +8,14 @@ and takes the rare branch, where it is sorted out.
 import numpy as np
 
 from lepp.geometry.predicates import IN_CIRCLE_BOUND, UNDERFLOW, orientation, uncertain_in_circle
-from lepp.jit import kernel
+from lepp.jit import inner, kernel
 from lepp.mesh.half_edges import next_of, previous_of
 
 _U0, _U1, _U2, _U3, _U4, _U5, _U6, _U8 = (np.uint64(k) for k in (0, 1, 2, 3, 4, 5, 6, 8))
 _ROW = ~np.uint64(7)  # takes a half-edge to half-edge 0 of its triangle
 
 
-@kernel
+@inner
 def _sees(ax, ay, bx, by, x, y):
     """Tell whether a point is in conflict with the outer triangle of a hull edge.
 
@@ -30,7 +30,7 @@ def _sees(ax, ay, bx, by, x, y):
     return min(ay, by) < y < max(ay, by)
 
 
-@kernel
+@inner
 def _in_conflict(ax, ay, bx, by, cx, cy, x, y):
     """Tell, exactly, whether a point is in conflict with a triangle; infinity is nan."""
     if ax != ax:

@@ -13,7 +13,7 @@ import numpy as np
 from lepp.geometry.hilbert import hilbert_order
 from lepp.geometry.lengths import is_certain, rank, squared_length
 from lepp.geometry.predicates import orientation
-from lepp.jit import kernel
+from lepp.jit import inner, kernel
 from lepp.jit.memory import in_one_block
 from lepp.mesh.half_edges import next_of, write_first_triangle
 from lepp.triangulate.delaunay.cavity import insert, room
@@ -135,7 +135,7 @@ def _insert_all(xy, rows, n, order, repeats):
     return np.int64(n_rows)
 
 
-@kernel
+@inner
 def _is_outer(rows, t, infinity):
     """Tell whether the triangle in row t has the vertex at infinity."""
     h = 8 * t

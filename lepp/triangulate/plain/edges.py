@@ -5,10 +5,10 @@ half-edge of a triangle (a, b, c) across from a runs from b to c. No edge is eve
 is split into two keeps its number for those who ask for its parts.
 """
 
-from lepp.jit import kernel
+from lepp.jit import inlined, kernel
 
 
-@kernel
+@inlined
 def parts_of(half_edge, part):
     """Return the two parts of a half-edge, in its direction, of an edge split into part, part + 1.
 

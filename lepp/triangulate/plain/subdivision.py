@@ -10,7 +10,7 @@ import numpy as np
 
 from lepp.geometry.lengths import is_certain, rank, squared_length
 from lepp.geometry.predicates import orient, same, turn_error
-from lepp.jit import inlined, kernel
+from lepp.jit import inlined, inner, kernel
 from lepp.triangulate.plain.edges import parts_of
 from lepp.triangulate.plain.waiting import INSIDE, ON_SIDE
 
@@ -301,7 +301,7 @@ def partition_beside(points, x, y, ident, repeats, spans, p, c):
     return end_2, end_3
 
 
-@kernel
+@inner
 def _exact_parts(points, p, a, b, c, i):
     """Tell which of the parts (a, b, p), (p, b, c), (a, p, c) hold point i.
 
