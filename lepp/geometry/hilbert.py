@@ -7,6 +7,7 @@ from lepp.jit import inner, kernel
 _BITS = 16  # of each coordinate; a key, the place along the curve, has twice as many
 _CELLS = 2.0**_BITS - 2.0**-20  # so that the last point is in the last cell, not beyond
 _DIGIT_BITS = 11
+_RUN_DIGIT_BITS = 8  # of a run: 32 bits in an even number of digits
 # Longer runs of points in one cell are ordered again, in a box about them.
 _LONGEST_RUN = 16
 _HALF_WORD = np.uint64(32)
@@ -64,8 +65,8 @@ def hilbert_order(points, order, scratch):
     entries = scratch[:n]
     for i in range(n):
         entries[i] = (np.uint64(keys[i] >> shift) << _HALF_WORD) | np.uint64(i)
-    entries = _radix_sorted(entries, scratch[n:], n_bits)
-    _order_runs(points, entries)
+    entries, free = _radix_sorted(entries, scratch[n:], n_bits, _DIGIT_BITS)
+    _order_runs(points, entries, free)
     for i in range(n):
         order[i] = entries[i]
 
@@ -135,11 +136,14 @@ def hilbert_key(x, y):
 
 
 @inner
-def _radix_sorted(entries, result, n_bits):
-    """Return one of two arrays, with the entries of the first in the order of `n_bits` of key."""
-    n_buckets = 1 << _DIGIT_BITS
+def _radix_sorted(entries, result, n_bits, digit_bits):
+    """Return two arrays, the first with the entries in the order of `n_bits` of key, stably.
+
+    The entries are where they were if the number of digits is even.
+    """
+    n_buckets = 1 << digit_bits
     mask = np.uint64(n_buckets - 1)
-    for first_bit in range(0, n_bits, _DIGIT_BITS):
+    for first_bit in range(0, n_bits, digit_bits):
         shift = np.uint64(first_bit) + _HALF_WORD
         end = np.zeros(n_buckets, np.uint32)
         for entry in entries:
@@ -155,11 +159,11 @@ def _radix_sorted(entries, result, n_bits):
             result[place] = entry
             end[bucket] = place + np.uint32(1)
         entries, result = result, entries
-    return entries
+    return entries, result
 
 
 @inner
-def _order_runs(points, entries):
+def _order_runs(points, entries, free):
     """Order long runs of one key by keys in the box of the run, until none is left."""
     todo = [(0, len(entries))]
     while len(todo) > 0:
@@ -173,7 +177,7 @@ def _order_runs(points, entries):
             if last - first > _LONGEST_RUN:
                 run = entries[first:last]
                 _renew_keys(points, run)
-                run.sort()
+                _radix_sorted(run, free[first:last], 2 * _BITS, _RUN_DIGIT_BITS)
                 if run[0] >> _HALF_WORD != run[-1] >> _HALF_WORD:  # else all are one point
                     todo.append((first, last))
             first = last

@@ -23,7 +23,7 @@ def for_kernels(array: np.ndarray, dtype: type) -> np.ndarray:
     """Return an array that kernels are compiled for: of a dtype, C-contiguous, aligned, writable.
 
     To numba a read-only or misaligned array is of another type, for which a kernel would be
-    compiled anew: a minute without a word. Kernels do not write to what they are given to read.
+    compiled anew, without a word. Kernels do not write to what they are given to read.
 
     Returns
     -------

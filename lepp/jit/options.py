@@ -8,7 +8,8 @@ from numba.core.types.misc import unliteral
 
 from lepp.jit.cache import cache_directory
 
-_CACHE_DIRECTORY = cache_directory()
+CACHE_DIRECTORY = cache_directory()
+"""Where machine code is kept; None if nowhere."""
 
 
 def kernel(function: Callable) -> Any:  # noqa: ANN401 - numba's dispatchers have no public type
@@ -38,10 +39,10 @@ def inlined(function: Callable) -> Any:  # noqa: ANN401 - as above
 
 def _compiled(function: Callable, **options: object) -> Any:  # noqa: ANN401 - as above
     before = numba.config.CACHE_DIR
-    numba.config.CACHE_DIR = str(_CACHE_DIRECTORY or before)
+    numba.config.CACHE_DIR = str(CACHE_DIRECTORY or before)
     try:
         made = numba.njit(
-            cache=_CACHE_DIRECTORY is not None,
+            cache=CACHE_DIRECTORY is not None,
             nogil=True,
             error_model="numpy",
             fastmath=False,

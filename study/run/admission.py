@@ -163,7 +163,7 @@ class AdmittedWorkers(Workers):
             rooms = self._fit(workers)
             if rooms:
                 first = next(iter(rooms))
-                if (why := self._prepared(first)) is not None:
+                if (why := self._prepared(first, max(rooms.values()))) is not None:
                     self._refuse([workers[address]["id"] for address in rooms], why)
                     return
                 grant: Any = partial(_grant, name=self._resource, rooms=rooms)
@@ -202,9 +202,11 @@ class AdmittedWorkers(Workers):
                 rooms[address] = room if worker["memory_limit"] else _UNLIMITED
         return rooms
 
-    def _prepared(self, address: str) -> str | None:
+    def _prepared(self, address: str, room: float) -> str | None:
         """Have a worker prepare what the others of its host then load; return why it could not."""
-        prepare: Any = self.client.submit(self._kind.prepare, workers=[address], pure=False)
+        prepare: Any = self.client.submit(
+            self._kind.prepare, self._design, room, workers=[address], pure=False
+        )
         end = monotonic() + PREPARE_SECONDS
         while monotonic() < end:
             try:

@@ -120,7 +120,7 @@ def connect(
             # Before the workers start, so that they only load: compiling in all of them at once
             # is slow.
             with _told_if_long(kind.preparing, note):
-                kind.prepare()
+                kind.prepare(design, _for_tasks(kind, options))
             with local(
                 options.n_workers(kind),
                 _for_tasks(kind, options),

@@ -241,8 +241,16 @@ class Kind(ABC, Generic[Task, D]):
         return None
 
     @abstractmethod
-    def prepare(self) -> None:
-        """Do what is done once on a computer, before its workers start."""
+    def prepare(self, design: D, memory: float) -> None:
+        """Do what is done once on a computer, before its workers start.
+
+        Parameters
+        ----------
+        design : D
+            What will be run.
+        memory : float
+            Bytes that a task may take.
+        """
 
     def order_of(self, design: D) -> Mapping[str, Sequence[object]]:
         """Return columns by which the rows of all tables are ordered before the tasks.

@@ -105,7 +105,7 @@ class Triangulations(Kind[Task, Design]):
     task = Task
     units = ("triangulations", "points")
     preparing = (
-        "Loading the kernels; the first time they are compiled, which takes a minute or more."
+        "Loading the kernels; the first time they are compiled, which takes up to half a minute."
     )
     #: As measured with distributed and the kernels loaded, and memory kept between small tasks.
     base_memory = 280_000_000
@@ -182,9 +182,11 @@ class Triangulations(Kind[Task, Design]):
             return None
         return StagedTriangulation(task, design, directory, max(memory, LEAST_MEMORY))
 
-    def prepare(self) -> None:
-        """Compile the kernels, or load them."""
-        lepp.compile_kernels()
+    def prepare(self, design: Design, memory: float) -> None:
+        """Compile the kernels that the design needs, or load them."""
+        largest = Task("", max(design.repetitions_by_size), 0)
+        tiles = design.methods == IN_TILES and not self.is_at_once(largest, design, memory)
+        lepp.compile_kernels(design.methods, tiles=tiles, meshes=False)
 
     def perform(self, task: Task, design: Design) -> Outcome[Task]:
         """Draw the points, check their randomness, triangulate them and measure the LEPPs.

@@ -8,6 +8,8 @@ refines the mesh of the last evenly, and a point is near the one before it.
 `lepp.triangulate.delaunay.cavity` holds the mesh and inserts a point.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from lepp.geometry.hilbert import hilbert_order
@@ -22,6 +24,24 @@ _U1, _U2, _U3, _U4 = np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(4)
 _ROUND_SHIFT = 4  # the points of a round are every 2**4-th of the next
 _FIRST_CAPACITY = 64
 _MODERATE = 100  # binary exponents that leave room for products of four differences
+
+
+class Space(NamedTuple):
+    """Room for the mesh of n points along the curve, in one block of memory."""
+
+    rows: np.ndarray  # (16 n + 16,) uint32, the mesh of `lepp.mesh.half_edges`
+    coordinates: np.ndarray  # (2 n + 2,) float64, x and y in turn
+    order: np.ndarray  # (n,) uint32, the original number of each
+    repeats: np.ndarray  # (n,) int32, for a point left out the one that it repeats, or -1
+
+
+def space_for(n: int) -> Space:
+    """Return room for n points."""
+    return Space(
+        *in_one_block(
+            (16 * n + 16, np.uint32), (2 * n + 2, np.float64), (n, np.uint32), (n, np.int32)
+        )
+    )
 
 
 def delaunay(
@@ -47,10 +67,30 @@ def delaunay(
     """
     n = len(points)
     points = _to_moderate_scale(points)
-    rows, coordinates, order, repeats = in_one_block(
-        (16 * n + 16, np.uint32), (2 * n + 2, np.float64), (n, np.uint32), (n, np.int32)
-    )
-    hilbert_order(points, order, rows.view(np.uint64)[: 2 * n])  # rows are not in use yet
+    space = space_for(n)
+    hilbert_order(points, space.order, space.rows.view(np.uint64)[: 2 * n])  # not in use yet
+    return inserted(points, space)
+
+
+def inserted(
+    points: np.ndarray, space: Space
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray | None]:
+    """Return the Delaunay triangulation of points whose order is known.
+
+    Parameters
+    ----------
+    points : (n, 2) float64 ndarray
+        As for `delaunay`, but with exponents that leave room.
+    space : Space
+        The order, and room.
+
+    Returns
+    -------
+    triangles, neighbors, repeated, ranks
+        As from `delaunay`.
+    """
+    n = len(points)
+    rows, coordinates, order, repeats = space
     _gather(points, order, coordinates)
     first, second, third = _first_triangle(coordinates, n)
     if third == n:

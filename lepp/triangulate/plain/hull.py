@@ -8,7 +8,7 @@ root that holds it.
 import numpy as np
 
 from lepp.geometry.predicates import orient, same, turn_is_certain
-from lepp.jit import kernel
+from lepp.jit import inner, kernel
 from lepp.triangulate.plain.edges import parts_of
 from lepp.triangulate.plain.ring import replace_edges, visible_chain
 from lepp.triangulate.plain.waiting import (
@@ -70,7 +70,7 @@ def sweep_hull(points, ring, waiting, roots, split):
     return n_roots, n_edges
 
 
-@kernel
+@inner
 def _first_chain(points, repeats):
     """Return the points before the first turn: distinct, in the order of their line.
 
@@ -106,7 +106,7 @@ def _first_chain(points, repeats):
     return chain, turn
 
 
-@kernel
+@inner
 def _start_ring(ring, waiting, chain):
     """Make the hull of the chain, there and back.
 
@@ -124,7 +124,7 @@ def _start_ring(ring, waiting, chain):
         waiting.lying[j] = -1
 
 
-@kernel
+@inner
 def _list_all(points, waiting, chain, turn):
     """List the points from `turn` on with an edge of the first hull.
 
@@ -152,7 +152,7 @@ def _list_all(points, waiting, chain, turn):
         wait_outside(waiting, i, 0 if side < 0 else n_side)
 
 
-@kernel
+@inner
 def _cover(ring, waiting, roots, fan, q, n_roots, n_edges, n_ring):
     """Join point q to the edges of `fan` (all but its last) and renew the hull there.
 
@@ -183,7 +183,7 @@ def _cover(ring, waiting, roots, fan, q, n_roots, n_edges, n_ring):
         waiting.lying[edge] = -1
 
 
-@kernel
+@inner
 def _settle(points, waiting, i, q, corners, n_roots, n_ring):
     """Place the points that saw a covered edge: outside still, on the new hull, or in a root.
 
@@ -241,7 +241,7 @@ def _settle(points, waiting, i, q, corners, n_roots, n_ring):
     heads[0], heads[1] = first_head, second_head
 
 
-@kernel
+@inner
 def _settle_exactly(points, waiting, i, q, corners, n_roots, n_ring):
     """Place a point that saw a covered edge, whichever way it lies."""
     low, high = 0, len(corners) - 1
@@ -271,7 +271,7 @@ def _settle_exactly(points, waiting, i, q, corners, n_roots, n_ring):
         hand_over(waiting, i, INSIDE, n_roots + low, -1)
 
 
-@kernel
+@inner
 def _split_hull_edge(points, ring, waiting, q, split, n_edges, n_ring):
     """Make point q, which lies on a hull edge, a vertex of the hull.
 

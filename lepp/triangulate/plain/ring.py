@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from lepp.geometry.predicates import orient
-from lepp.jit import kernel
+from lepp.jit import inner
 from lepp.jit.memory import in_one_block
 
 
@@ -28,7 +28,7 @@ def empty_ring(n: int) -> Ring:
     return Ring(*in_one_block(edge, edge, edge, edge, edge))
 
 
-@kernel
+@inner
 def visible_chain(points, ring, first, q):
     """Return the hull edges that point q sees, and the edge that follows them.
 
@@ -67,7 +67,7 @@ def visible_chain(points, ring, first, q):
     return fan
 
 
-@kernel
+@inner
 def replace_edges(ring, first, last, incoming, vertex):
     """Put two edges that meet at a vertex into the ring, in place of those from `first` to `last`.
 

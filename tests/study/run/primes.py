@@ -71,7 +71,7 @@ class Primes(Kind):
     def memory_of(self, task, design):
         return Memory("A range", 8 * design.length)
 
-    def prepare(self):
+    def prepare(self, design, memory):
         pass
 
 

@@ -253,7 +253,7 @@ def smallest_last(size_of):
 
 
 def test_a_worker_that_cannot_compile_is_refused(cluster, tmp_path, monkeypatch):
-    def prepare(self):
+    def prepare(self, design, memory):
         raise RuntimeError("no compiler")
 
     monkeypatch.setattr(Triangulations, "prepare", prepare)

@@ -153,7 +153,7 @@ def test_what_takes_long_is_told(monkeypatch):
         told.set()
 
     class Slow(Triangulations):
-        def prepare(self):
+        def prepare(self, design, memory):
             told.wait(30)
             raise InputError("prepared")
 
