@@ -32,9 +32,6 @@ def test_memory_is_checked_for_the_largest_triangulation():
     )
 
 
-def test_the_memory_of_every_method_is_known():
-
-
 def test_the_memory_of_the_processes_is_counted(monkeypatch):
     monkeypatch.setattr(cluster_module, "free_memory", lambda: 3 * BASE + ONE)
     check_request(TRIANGULATIONS, DESIGN, ClusterOptions(workers=3))
