@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import sys
 from pathlib import Path
 from time import perf_counter
@@ -25,6 +26,9 @@ EXIT_BAD_INPUT = 2
 EXIT_FAILED_TASKS = 3
 
 
+_SECONDS = {"s": 1, "min": 60, "h": 3600, "d": 86400}
+
+
 class Duration(click.ParamType):
     """A time such as 90s, 30min or 2h, as seconds."""
 
@@ -37,15 +41,12 @@ class Duration(click.ParamType):
         ctx: click.Context | None,
     ) -> float:
         """Return the seconds."""
-        from dask.utils import parse_timedelta
-
-        try:
-            seconds = float(parse_timedelta(value))
-        except (ValueError, KeyError):
-            seconds = -1.0
-        if seconds < 0:
-            self.fail(f"{value!r} is no time: write it as 90s, 30min or 2h.", param, ctx)
-        return seconds
+        if isinstance(value, float):  # click converts defaults once more
+            return value
+        found = re.fullmatch(r"(\d+(?:\.\d+)?) ?(s|min|h|d)", value)
+        if found is None:
+            self.fail(f"{value!r} is no time: write it as 90s, 30min, 2h or 1d.", param, ctx)
+        return float(found[1]) * _SECONDS[found[2]]
 
 
 class Bytes(click.ParamType):

@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from distributed import Client, LocalCluster
 from tiny_runs import store_run
 
-from reports.cli.main import main
+from reports.cli.main import Duration, main
 from study.design.design import Design
 from study.results.store import Store, load
 from study.run.local import LocalWorkers
@@ -227,7 +227,7 @@ def test_an_interrupted_run_says_how_to_go_on(tmp_path, config, threads, monkeyp
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["run", "--preset", "papers"], "no preset 'papers'; the presets are beyond, both, delaun"),
+        (["run", "--preset", "papers"], "no preset 'papers'; the presets are beyond, beyond-billion"),
         (["run", "--preset", "smoke", "--config", "x.toml"], "--preset or --config, not both"),
         (["run", "--config", "none.toml"], "Cannot read the design none.toml: No such file"),
         (["run", "--config", "mine.toml", "--seed", "-1"], "seed = -1, which is not allowed"),
@@ -246,11 +246,18 @@ def test_bad_input_is_one_sentence(arguments, words, config, monkeypatch):
     assert result.output.count("\n") == 1
 
 
-@pytest.mark.parametrize("words", ["soon", "-1s", "90 parsecs"])
+@pytest.mark.parametrize("words", ["soon", "-1s", "90 parsecs", "90", ""])
 def test_a_wait_that_is_no_time_is_told(words):
     result = lepp_study("run", "new", "--wait", words)
     assert result.exit_code == 2
-    assert f"{words!r} is no time: write it as 90s, 30min or 2h." in result.output
+    assert f"{words!r} is no time: write it as 90s, 30min, 2h or 1d." in result.output
+
+
+@pytest.mark.parametrize(
+    ("words", "seconds"), [("90s", 90), ("30min", 1800), ("1.5h", 5400), ("2 d", 172800)]
+)
+def test_a_wait_is_a_time(words, seconds):
+    assert Duration().convert(words, None, None) == seconds
 
 
 def test_an_unknown_command_lists_the_known():

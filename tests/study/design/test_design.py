@@ -19,7 +19,7 @@ def test_presets_share_the_seed_and_differ_in_the_method():
     assert paper.difference(delaunay) == "methods is incremental there and delaunay here"
     assert both.methods == ("incremental", "delaunay")
     assert {paper.seed, delaunay.seed, both.seed} == {paper.seed}
-    assert preset_names() == ["beyond", "both", "delaunay", "paper", "smoke"]
+    assert preset_names() == ["beyond", "beyond-billion", "both", "delaunay", "paper", "smoke"]
 
 
 def test_beyond_goes_to_ten_million_points_with_more_sets_of_the_small_ones():
@@ -30,6 +30,15 @@ def test_beyond_goes_to_ten_million_points_with_more_sets_of_the_small_ones():
     sets = sum(beyond.repetitions_by_size.values())
     assert beyond.n_triangulations == 2 * 4 * sets
     assert beyond.n_points == 8 * sum(n * r for n, r in beyond.repetitions_by_size.items())
+
+
+def test_beyond_billion_adds_two_sizes_to_the_plain_insertion_of_beyond():
+    beyond, billion = map(Design.from_preset, ("beyond", "beyond-billion"))
+    added = {100_000_000: 4, 1_000_000_000: 1}
+    assert billion.repetitions_by_size == beyond.repetitions_by_size | added
+    assert billion.methods == ("incremental",)
+    others = {"methods", "sizes", "repetitions"}
+    assert billion.model_dump(exclude=others) == beyond.model_dump(exclude=others)
 
 
 def test_repetitions_go_with_their_sizes_in_any_order():
@@ -120,7 +129,7 @@ def test_a_file_is_read_and_a_wrong_one_named(tmp_path):
         Design.from_toml(path)
     with pytest.raises(InputError, match=r"Cannot read the design .*No such file"):
         Design.from_toml(tmp_path / "none.toml")
-    with pytest.raises(InputError, match="no preset 'papers'; the presets are beyond, both, del"):
+    with pytest.raises(InputError, match="no preset 'papers'; the presets are beyond, beyond-billion, both"):
         Design.from_preset("papers")
 
 

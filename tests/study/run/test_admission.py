@@ -102,7 +102,8 @@ def test_a_cluster_that_starts_from_nothing_grows_for_a_run(cluster, tmp_path, w
     assert summary.n_threads in (1, 2)
     assert sorted(heard.tasks) == sorted(TASKS)
     assert contents(tmp_path) == contents(whole)
-    assert any(note.startswith("Waiting for workers at tcp://") for note in heard.notes)
+    # At it, or of it: the unfit one may be looked at by then.
+    assert any(note.startswith("Waiting for workers ") for note in heard.notes)
 
 
 def test_no_workers_for_too_long_end_a_run_with_a_sentence(cluster, tmp_path):
@@ -147,7 +148,8 @@ def test_workers_that_come_and_go_leave_the_same_bytes(cluster, tmp_path, whole,
         run_at(cluster, tmp_path, heard)
         done.append(True)
     assert set(computed_by) == {"first", "second"}
-    assert any(note.startswith("Waiting for workers at tcp://") for note in heard.notes)
+    # At it, or of it: the unfit one may be looked at by then.
+    assert any(note.startswith("Waiting for workers ") for note in heard.notes)
     assert any(OLD not in note and "gets no tasks" in note for note in heard.notes)
     assert contents(tmp_path) == contents(whole)
 
@@ -213,6 +215,7 @@ def test_a_large_task_runs_alone_on_a_worker_and_small_ones_side_by_side(
 
 def test_a_task_that_fits_into_no_worker_is_refused(cluster, tmp_path, monkeypatch):
     monkeypatch.setattr(Triangulations, "memory_of", need(100_000_000))
+    monkeypatch.setattr(Triangulations, "least_memory_of", Triangulations.memory_of)
     with (
         worker(cluster, "small", memory_limit=room(900_000_000)),
         pytest.raises(InputError, match=r"takes about 1\.3 GB .* the largest worker has 1\.2 GB"),
