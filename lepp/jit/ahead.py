@@ -121,7 +121,7 @@ def compile_kernels(
     meshes : bool
         Whether there will be meshes of others, in the plane or in space.
     """
-    wanted = _OF_ALL.union(*(_OF_METHODS.get(method, ()) for method in methods))
+    wanted = _OF_ALL.union(*(_OF_METHODS.get(method, set()) for method in methods))
     wanted |= ({"tiles"} if tiles else set()) | ({"meshes"} if meshes else set())
     compile_parts([part for part in _PARTS if part in wanted])
 

@@ -118,6 +118,7 @@ def test_what_is_not_asked_for_is_left_out(monkeypatch):
     ahead.compile_kernels((), tiles=True, meshes=True)
     ahead.compile_kernels()
     plain, delaunay, beside, everything = asked
+    assert set(ahead._OF_METHODS) == set(METHODS)
     assert plain - delaunay == {"hull", "subdivision"}
     assert delaunay - plain == {"curve", "cavities"}
     assert beside - plain == {"tiles", "meshes"}

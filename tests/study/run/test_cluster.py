@@ -181,7 +181,7 @@ def test_a_client_that_cannot_connect_leaves_no_cluster(monkeypatch):
 
     monkeypatch.setattr("distributed.LocalCluster", Cluster)
     monkeypatch.setattr("distributed.Client", fail)
-    monkeypatch.setattr(Triangulations, "prepare", lambda self: None)
+    monkeypatch.setattr(Triangulations, "prepare", lambda self, design, memory: None)
     with (
         pytest.raises(RuntimeError, match="no client"),
         connect(TRIANGULATIONS, SMALL, ClusterOptions(workers=1), print),
@@ -198,7 +198,7 @@ def test_workers_that_do_not_start_say_why(monkeypatch):
             raise RuntimeError("Nanny failed to start.") from error
 
     monkeypatch.setattr("distributed.LocalCluster", fail)
-    monkeypatch.setattr(Triangulations, "prepare", lambda self: None)
+    monkeypatch.setattr(Triangulations, "prepare", lambda self, design, memory: None)
     with (
         pytest.raises(InputError, match=r"did not start: .*denied: '/dev/shm'\. Try few"),
         connect(TRIANGULATIONS, SMALL, ClusterOptions(workers=1), print),
@@ -219,7 +219,7 @@ def test_where_there_can_be_no_more_threads_the_cluster_is_closed_all_the_same(m
 
     monkeypatch.setattr("distributed.LocalCluster", Cluster)
     monkeypatch.setattr("distributed.Client", Client)
-    monkeypatch.setattr(Triangulations, "prepare", lambda self: None)
+    monkeypatch.setattr(Triangulations, "prepare", lambda self, design, memory: None)
     with connect(TRIANGULATIONS, SMALL, ClusterOptions(workers=1), print):
         monkeypatch.setattr("study.run.local.Thread.start", no_thread)
     assert Cluster.last.closed.is_set()

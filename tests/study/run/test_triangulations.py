@@ -206,3 +206,18 @@ def test_a_third_method_goes_through(tmp_path, monkeypatch):
     assert first["n_triangles"] == measures["n_triangles"]
     assert first["mean_lepp"] == pytest.approx(measures["mean_lepp"])
     assert first["n_type_b"] == measures["n_type_b"]
+
+
+def test_what_a_design_needs_is_compiled(monkeypatch):
+    asked = []
+    monkeypatch.setattr(lepp, "compile_kernels", lambda *args, **which: asked.append((args, which)))
+    plain = DESIGN.model_copy(update={"methods": ("incremental",), "sizes": (60, 10_000_000)})
+    whole = TRIANGULATIONS.memory_of(Task("uniform", 10_000_000, 0), plain).n_bytes
+    TRIANGULATIONS.prepare(plain, whole)
+    TRIANGULATIONS.prepare(plain, whole - 1)
+    TRIANGULATIONS.prepare(DESIGN, 1)
+    assert asked == [
+        ((("incremental",),), {"tiles": False, "meshes": False}),
+        ((("incremental",),), {"tiles": True, "meshes": False}),
+        ((tuple(METHODS),), {"tiles": False, "meshes": False}),
+    ]
