@@ -73,6 +73,8 @@ class AdmittedWorkers(Workers):
         #: Guards what the threads and the run share.
         self._lock = Lock()
         self._stranded_above: float | None = None
+        #: The bytes of the workers that were fit when they were last counted, by their id.
+        self._fit_before: dict[str, float] = {}
         self._present: dict[str, dict[str, Any]] = {}
         #: Workers by what Dask calls their id: why they get no tasks, empty while looked at.
         self._looked_at: dict[str, str] = {}
@@ -141,11 +143,15 @@ class AdmittedWorkers(Workers):
         new: dict[str, dict[str, dict[str, Any]]] = {}
         with self._lock:
             self._present = present
-            largest = max((w["resources"][self._resource] for w in fit), default=0.0)
-            if largest > self.largest:
+            rooms = {w["id"]: w["resources"][self._resource] for w in fit}
+            if rooms.keys() - self._fit_before.keys():
+                # What a worker had room for that was there all the time found one.
+                stayed = (room for key, room in rooms.items() if key in self._fit_before)
+                above = max(stayed, default=0.0)
                 before = self._stranded_above
-                self._stranded_above = self.largest if before is None else min(before, self.largest)
-            self.largest = largest
+                self._stranded_above = above if before is None else min(before, above)
+            self._fit_before = rooms
+            self.largest = max(rooms.values(), default=0.0)
             self.now = sum(w["nthreads"] for w in fit)
             for address, worker in present.items():
                 if (

@@ -5,7 +5,7 @@ from threading import Thread, current_thread, main_thread
 from time import sleep
 
 import pytest
-from distributed import LocalCluster, Worker
+from distributed import Client, LocalCluster, Worker
 from faults import DESIGN, TASKS, Heard, contents
 
 from lepp import InputError
@@ -299,3 +299,27 @@ def test_other_versions_are_named():
         "does not have lepp-study, and this"
     )
     assert difference(here | {"Python": "3.12"}, here, ()).startswith("has Python 3.12, and")
+
+
+def test_what_a_worker_that_came_as_another_left_can_do_is_sent_once_more(cluster, tmp_path):
+    """Between two looks: the largest room is less than before, and tasks have waited meanwhile."""
+
+    def fit(key, room):
+        return {"id": key, "nthreads": 1, "resources": {admitted._resource: room}, "host": "a"}
+
+    with worker(cluster, "any"), Client(cluster) as client:
+        admitted = AdmittedWorkers(client, "tcp://x", TRIANGULATIONS, DESIGN, print)
+        admitted.close()
+        assert admitted._closed.wait(5)
+        sleep(1)  # until its thread has seen that
+        admitted.stranded_above()
+        admitted._count({"a": fit("large", 9.0)})
+        assert admitted.stranded_above() == 0
+        admitted._count({"a": fit("large", 9.0)})
+        assert admitted.stranded_above() is None
+        admitted._count({"a": fit("large", 9.0), "b": fit("small", 2.0)})
+        assert admitted.stranded_above() == 9.0
+        admitted._count({"b": fit("small", 2.0)})
+        assert admitted.stranded_above() is None
+        admitted._count({"c": fit("other", 1.0)})
+        assert admitted.stranded_above() == 0
