@@ -99,6 +99,7 @@ class AdmittedWorkers(Workers):
             present = {worker["id"]: address for address, worker in self._present.items()}
             refused = {key: why for key, why in self._looked_at.items() if why and key in present}
             fit = sum(self._resource in worker["resources"] for worker in self._present.values())
+            paused = any(worker["status"] == "paused" for worker in self._present.values())
         looked_at = len(present) > len(refused) + fit
         if now and not looked_at and not self._used:
             check_memory(self._kind, self._design, largest, "the largest worker has")
@@ -112,6 +113,8 @@ class AdmittedWorkers(Workers):
                 self._note(f"The worker {present[key]}, and any like it, gets no tasks: it {why}.")
         if now:
             return None
+        if paused:
+            return f"workers of {self._scheduler} that have paused, short of memory"
         if looked_at:
             return f"workers of {self._scheduler} to load the kernels, or to compile them"
         return f"workers at {self._scheduler}: start some with dask worker {self._scheduler}"
@@ -139,7 +142,12 @@ class AdmittedWorkers(Workers):
 
     def _count(self, present: dict[str, dict[str, Any]]) -> None:
         """Count the workers that are fit, and have the new ones looked at."""
-        fit = [w for w in present.values() if self._resource in w["resources"]]
+        # One that is short of memory pauses: it takes no task until it has some again.
+        fit = [
+            worker
+            for worker in present.values()
+            if self._resource in worker["resources"] and worker["status"] == "running"
+        ]
         new: dict[str, dict[str, dict[str, Any]]] = {}
         with self._lock:
             self._present = present

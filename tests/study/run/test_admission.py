@@ -4,6 +4,8 @@ from contextlib import contextmanager
 from threading import Thread, current_thread, main_thread
 from time import sleep
 
+import dask
+import psutil
 import pytest
 from distributed import Client, LocalCluster, Worker
 from faults import DESIGN, TASKS, Heard, contents
@@ -60,9 +62,14 @@ def _other_versions(monkeypatch):
 
 
 @contextmanager
-def worker(cluster, name, **options):
+def worker(cluster, name, pause=False, **options):
+    # It measures the memory of this process, which has all the tests in it.
+    shares = {"target": False, "spill": False, "pause": pause}
+
     async def start():
-        return await Worker(cluster.scheduler_address, nthreads=1, name=name, **options)
+        memory = {f"distributed.worker.memory.{what}": share for what, share in shares.items()}
+        with dask.config.set(memory):
+            return await Worker(cluster.scheduler_address, nthreads=1, name=name, **options)
 
     started = cluster.sync(start)
     try:
@@ -287,6 +294,17 @@ def test_a_scheduler_that_does_not_answer_is_told_and_not_waited_for_without_end
     assert frozen
 
 
+def test_a_worker_that_is_short_of_memory_is_told_and_not_counted(cluster, tmp_path):
+    """It pauses at once: this process has more than half of the limit."""
+    heard = Heard()
+    limit = 2 * psutil.Process().memory_info().rss
+    with (
+        worker(cluster, "short", memory_limit=limit, pause=0.1),
+        pytest.raises(RunStoppedError, match=r"Waited 3 seconds for workers .* have paused"),
+    ):
+        run_at(cluster, tmp_path, heard, wait=3.0)
+
+
 def test_other_versions_are_named():
     here = {"Python": "3.11", "dask": "2026.8.0", "lepp-study": "0.1.0", "numpy": "2.4.6"}
     names = ("lepp-study", "numpy")
@@ -304,8 +322,10 @@ def test_other_versions_are_named():
 def test_what_a_worker_that_came_as_another_left_can_do_is_sent_once_more(cluster, tmp_path):
     """Between two looks: the largest room is less than before, and tasks have waited meanwhile."""
 
+    up = {"host": "a", "status": "running"}
+
     def fit(key, room):
-        return {"id": key, "nthreads": 1, "resources": {admitted._resource: room}, "host": "a"}
+        return {"id": key, "nthreads": 1, "resources": {admitted._resource: room}, **up}
 
     with worker(cluster, "any"), Client(cluster) as client:
         admitted = AdmittedWorkers(client, "tcp://x", TRIANGULATIONS, DESIGN, print)
