@@ -144,7 +144,7 @@ def bounds(*groups: dict) -> Evidence:
     [
         (
             [{"premise": YES, "upto_size": 7}, {"premise": YES, "upto_size": 7}],
-            "and follow from what holds as well, that every step ends a path with a chance of at "
+            ". So does what they follow from, that every step ends a path with a chance of at "
             "least 1/3, as far as the chances are known to within 0.05 (up to size 7)",
         ),
         (
