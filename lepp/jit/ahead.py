@@ -92,13 +92,13 @@ _PARTS: dict[str, Callable[[], None]] = {
     "hull": _hull,
     "curve": _curve,
     "tiles": _tiles,
-    "layers": _layers,
     "equal lengths": _equal_lengths,
     "paths": _paths,
     "meshes": _meshes,
     "lengths": _lengths,
     "subdivision": _subdivision,
     "cavities": _cavities,
+    "layers": _layers,  # takes no predicate: those are compiled meanwhile
 }
 _OF_METHODS = {"incremental": {"hull", "subdivision"}, "delaunay": {"curve", "cavities"}}
 _OF_ALL = {"lengths", "paths", "equal lengths", "layers"}

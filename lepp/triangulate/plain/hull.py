@@ -7,15 +7,16 @@ root that holds it.
 
 import numpy as np
 
-from lepp.geometry.predicates import orient, same, turn_is_certain
+from lepp.geometry.predicates import orient, orientation, same, turn_is_certain
 from lepp.jit import inner, kernel
 from lepp.triangulate.plain.edges import parts_of
-from lepp.triangulate.plain.ring import replace_edges, visible_chain
+from lepp.triangulate.plain.ring import Ring, replace_edges, visible_chain
 from lepp.triangulate.plain.waiting import (
     INSIDE,
     ON_HULL,
     ON_SIDE,
     OUTSIDE,
+    Waiting,
     hand_over,
     repeat,
     wait_on_hull,
@@ -23,8 +24,9 @@ from lepp.triangulate.plain.waiting import (
 )
 
 
-@kernel
-def sweep_hull(points, ring, waiting, roots, split):
+def sweep_hull(
+    points: np.ndarray, ring: Ring, waiting: Waiting, roots: np.ndarray, split: np.ndarray
+) -> tuple[int, int]:
     """Insert the points that are outside the hull, or on it, at their turn.
 
     A point outside waits at one hull edge that it sees, and moves on when that edge is covered,
@@ -46,9 +48,17 @@ def sweep_hull(points, ring, waiting, roots, split):
     -------
     n_roots, n_edges : int
     """
-    chain, turn = _first_chain(points, waiting.repeats)
+    turn, axis = _first_turn(points)
     if turn == len(points):
         return 0, 0
+    chain = _chain(points, turn, axis, waiting.repeats)
+    n_roots, n_edges = _sweep(points, ring, waiting, roots, split, chain, turn)
+    return n_roots, n_edges
+
+
+@kernel
+def _sweep(points, ring, waiting, roots, split, chain, turn):
+    """Do the same from the first turn on."""
     _start_ring(ring, waiting, chain)
     _list_all(points, waiting, chain, turn)
     n_roots, n_edges = 0, len(chain) - 1
@@ -70,16 +80,16 @@ def sweep_hull(points, ring, waiting, roots, split):
     return n_roots, n_edges
 
 
-@inner
-def _first_chain(points, repeats):
-    """Return the points before the first turn: distinct, in the order of their line.
+@kernel
+def _first_turn(points):
+    """Return the first point that is not on the line of those before it, and along what they lie.
 
     Returns
     -------
-    chain : (k,) int64 ndarray
-        The turn is to the left of it.
     turn : int
-        The first point that is not on the line; n where there is none.
+        n where there is none.
+    axis : int
+        0 if the points before have different x, else 1.
     """
     n = len(points)
     other = 1
@@ -88,22 +98,24 @@ def _first_chain(points, repeats):
     turn = min(other + 1, n)
     while turn < n and orient(points, 0, other, turn) == 0:
         turn += 1
-    if turn == n:
-        return np.zeros(1, np.int64), n
-    axis = 0 if points[0, 0] != points[other, 0] else 1
-    order = np.argsort(points[:turn, axis], kind="mergesort")  # stable: the first of equals leads
-    chain = np.empty(turn, np.int64)
-    n_chain = 0
-    for i in order:
-        if n_chain and same(points, chain[n_chain - 1], i):
-            repeats[i] = chain[n_chain - 1]
-        else:
-            chain[n_chain] = i
-            n_chain += 1
-    chain = chain[:n_chain].copy()
-    if orient(points, chain[0], chain[n_chain - 1], turn) < 0:
-        chain = chain[::-1].copy()
-    return chain, turn
+    return turn, 0 if turn < n and points[0, 0] != points[other, 0] else 1
+
+
+def _chain(points: np.ndarray, turn: int, axis: int, repeats: np.ndarray) -> np.ndarray:
+    """Return the points before the first turn: distinct, in the order of their line.
+
+    Returns
+    -------
+    (k,) int64 ndarray
+        The turn is to the left of it.
+    """
+    order = np.argsort(points[:turn, axis], kind="stable")  # the first of equals leads
+    along = points[order, axis]
+    leads = np.append(True, along[1:] != along[:-1])
+    chain = order[leads]
+    repeats[order[~leads]] = chain[np.cumsum(leads) - 1][~leads]
+    (ax, ay), (bx, by), (x, y) = points[[chain[0], chain[-1], turn]].tolist()
+    return chain if orientation(ax, ay, bx, by, x, y) > 0 else chain[::-1].copy()
 
 
 @inner
@@ -142,7 +154,13 @@ def _list_all(points, waiting, chain, turn):
         side = orient(points, a, b, i)
         if side == 0:
             key = upwards * points[i, axis]
-            j = np.searchsorted(keys, key, side="right") - 1
+            j, above = -1, n_side + 1  # the last vertex that is not beyond the point
+            while above - j > 1:
+                middle = (j + above) // 2
+                if keys[middle] <= key:
+                    j = middle
+                else:
+                    above = middle
             if j >= 0 and keys[j] == key:
                 waiting.repeats[i] = chain[j]
                 continue

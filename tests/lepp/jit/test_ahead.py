@@ -136,9 +136,10 @@ from lepp.geometry.lengths import edge_ranks
 methods = sys.argv[1:]
 lepp.compile_kernels(methods, tiles=False, meshes=False)
 lattice = np.indices((9, 9)).reshape(2, -1).T * 0.1
+isosceles = np.array([[0, 0], [2, 0], [1, 2], [3, 2], [2, 4]])
 with event.install_recorder("numba:compile") as compiled:
     for method in methods:
-        for points in (np.random.default_rng(1).random((200, 2)), lattice):
+        for points in (np.random.default_rng(1).random((200, 2)), lattice, isosceles):
             mesh = lepp.triangulate(points, method)
             paths = lepp.lepp_paths(mesh)
             lepp.sizes_by_layer(lepp.triangle_layers(mesh), paths.sizes)
