@@ -8,7 +8,7 @@ from lepp.jit.ahead import compile_kernels
 from lepp.mesh.triangulation import Triangulation
 from lepp.mesh.worst_case import worst_case_strip
 from lepp.paths.layers import INTERIOR_LAYER, sizes_by_layer, triangle_layers
-from lepp.paths.neighbor_types import TYPE_A, TYPE_B, TYPE_C, TYPE_NONE
+from lepp.paths.neighbor_types import TYPE_A, TYPE_B, TYPE_C, TYPE_NONE, count_types
 from lepp.paths.paths import LeppPaths, lepp_paths, lepp_sizes
 from lepp.triangulate import METHODS, Method, triangulate
 
@@ -29,6 +29,7 @@ __all__ = [
     "Remedy",
     "Triangulation",
     "compile_kernels",
+    "count_types",
     "lepp_paths",
     "lepp_sizes",
     "sizes_by_layer",

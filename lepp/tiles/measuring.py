@@ -11,7 +11,7 @@ import numpy as np
 
 from lepp.geometry.lengths import LONGEST, NEARLY_EQUAL_BIT, SHORTEST_SHIFT
 from lepp.paths.layers import INTERIOR_LAYER, layers_from_boundary, sizes_by_layer
-from lepp.paths.neighbor_types import neighbor_types
+from lepp.paths.neighbor_types import count_types, neighbor_types
 from lepp.paths.successors import follow, single_edges, step_over
 from lepp.paths.ties import choose_edges
 from lepp.tiles.fine import FineMesh
@@ -81,7 +81,7 @@ def tile_counts(mesh: FineMesh, outer: Outer) -> TileCounts:
     types = neighbor_types(neighbors, successors, ranks)[:m]
     return TileCounts(
         sizes_by_layer(layers, sizes[:m]),
-        np.bincount(types, minlength=4),
+        count_types(types),
         n_equal,
         int(np.count_nonzero(mesh.ranks & NEARLY_EQUAL_BIT)),
         regions,

@@ -120,7 +120,7 @@ class Survey:
     @cached_property
     def type_counts(self) -> dict[str, int]:
         """Triangles by the type of their longest-edge neighbour: none, A, B, C."""
-        counts = np.bincount(self.paths.neighbor_types, minlength=4)
+        counts = lepp.count_types(self.paths.neighbor_types)
         return dict(zip(("none", "A", "B", "C"), counts.tolist(), strict=True))
 
     @property

@@ -44,7 +44,7 @@ class Counted:
             triangulation.n_hull,
             len(triangulation.repeated),
             lepp.sizes_by_layer(lepp.triangle_layers(triangulation), paths.sizes),
-            np.bincount(paths.neighbor_types, minlength=4),
+            lepp.count_types(paths.neighbor_types),
             paths.n_equal,
             paths.n_nearly_equal,
             np.bincount(np.bincount(paths.regions)),

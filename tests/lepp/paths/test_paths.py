@@ -25,6 +25,8 @@ def check_against_twin(triangulation, within=0.0):
     assert sizes.tolist() == paths.sizes.tolist()
     types = [twin.neighbor_type(t) for t in range(len(triangulation))]
     assert paths.neighbor_types.tolist() == types
+    n_by_type = [types.count(kind) for kind in range(4)]
+    assert lepp.count_types(paths.neighbor_types).tolist() == n_by_type
     successors = [twin.successor(t) for t in range(len(triangulation))]
     assert paths.successors.tolist() == [-1 if s is None else s for s in successors]
     for t, (steps, terminal) in enumerate(walked):
