@@ -1,5 +1,6 @@
 """Checks that the points of a set are as random as they should be."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -240,5 +241,5 @@ def _kolmogorov_cdf(distance: float, n: int) -> float:
     matrix[-1] -= powers[::-1]
     matrix[-1, 0] += max(2 * h - 1, 0.0) ** m
     matrix /= gamma(np.maximum(steps, 0) + 1)
-    power = np.linalg.matrix_power(matrix / np.e, n)[k - 1, k - 1]
+    power = np.linalg.matrix_power(matrix / math.e, n)[k - 1, k - 1]
     return float(power * np.exp(gammaln(n + 1) - n * np.log(n) + n))
