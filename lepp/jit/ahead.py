@@ -27,8 +27,10 @@ from lepp.tiles.fine import collect, fine_mesh
 from lepp.tiles.location import locate
 from lepp.triangulate import METHODS
 from lepp.triangulate.delaunay.delaunay import inserted, space_for
-from lepp.triangulate.plain.incremental import Roots, hull_roots, subdivided
-from lepp.triangulate.plain.waiting import INSIDE, nobody_waiting
+from lepp.triangulate.plain.cells import settle_by_cells
+from lepp.triangulate.plain.hull import Roots, hull_roots
+from lepp.triangulate.plain.incremental import subdivided
+from lepp.triangulate.plain.waiting import INSIDE, nobody_placed
 
 # Two triangles on either side of edge 1 2, and one with a point inside.
 _POINTS = np.array([[0.0, 0.0], [1.0, 0.1], [0.0, 1.3], [1.1, 1.0]])
@@ -38,14 +40,15 @@ _WITH_ONE_INSIDE = np.array([[0.0, 0.0], [1.0, 0.1], [0.0, 1.3], [0.3, 0.4]])
 
 
 def _hull() -> None:
-    hull_roots(_POINTS)
+    roots = hull_roots(_POINTS)
+    settle_by_cells(_POINTS, 3, roots.rows, roots.places)
 
 
 def _subdivision() -> None:
-    waiting = nobody_waiting(4)
-    waiting.state[3], waiting.of[3], waiting.beyond[3] = INSIDE, 0, -1
+    places = nobody_placed(4)
+    places.state[3], places.of[3], places.beyond[3] = INSIDE, 0, -1
     root = np.array([[0, 1, 2, 0, 2, 4]], np.int32)
-    subdivided(_WITH_ONE_INSIDE, Roots(waiting, root, 3, np.zeros(16, np.int32)))
+    subdivided(_WITH_ONE_INSIDE, Roots(places, root, 3, np.zeros(16, np.int32)))
 
 
 def _curve() -> None:

@@ -13,10 +13,8 @@ from lepp.errors import InputError
 from lepp.geometry.predicates import turn_is_certain
 from lepp.jit import inner, kernel
 from lepp.jit.memory import for_kernels
-from lepp.triangulate.plain.hull import sweep_hull
+from lepp.triangulate.plain.hull import hull_roots
 from lepp.triangulate.plain.incremental import incremental
-from lepp.triangulate.plain.ring import empty_ring
-from lepp.triangulate.plain.waiting import nobody_waiting
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,14 +65,11 @@ def coarse_mesh(points: np.ndarray, indices: np.ndarray, n_first: int) -> Coarse
         If the first points lie on one line.
     """
     points = for_kernels(points, np.float64)
-    n = len(points)
-    ring, waiting = empty_ring(n), nobody_waiting(n)
-    roots = np.empty((2 * n, 6), np.int32)
-    n_roots, _ = sweep_hull(points, ring, waiting, roots, np.zeros(4 * n, np.int32))
-    if n_roots == 0 or roots[0, 0] >= n_first:  # the first turn
+    rows = hull_roots(points).rows
+    if len(rows) == 0 or rows[0, 0] >= n_first:  # the first turn
         raise InputError(f"The first {n_first} points lie on one line.")
     # A point that lies on the hull at its turn need not be among them: the tile beside it has it.
-    chosen = np.union1d(np.arange(min(n_first, n)), roots[:n_roots, 0])
+    chosen = np.union1d(np.arange(min(n_first, len(points))), rows[:, 0])
     triangles, neighbors, repeated, _ = incremental(np.ascontiguousarray(points[chosen]))
     return CoarseMesh(points[chosen], indices[chosen], triangles, neighbors, len(repeated))
 

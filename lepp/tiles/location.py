@@ -8,8 +8,7 @@ from lepp.geometry.predicates import orient
 from lepp.jit import inner, kernel
 from lepp.jit.memory import for_kernels, in_one_block
 from lepp.tiles.coarse import CoarseMesh
-from lepp.triangulate.plain.hull import sweep_hull
-from lepp.triangulate.plain.ring import empty_ring
+from lepp.triangulate.plain.hull import hull_roots
 from lepp.triangulate.plain.subdivision import (
     Lists,
     bounds,
@@ -17,7 +16,6 @@ from lepp.triangulate.plain.subdivision import (
     partition,
     partition_beside,
 )
-from lepp.triangulate.plain.waiting import nobody_waiting
 
 #: A point in a tile: coordinates, and its number in the block; the complement (~) of that where it
 #: lies on a side. Such a point is in the tiles on both sides.
@@ -69,19 +67,16 @@ def locate(coarse: CoarseMesh, points: np.ndarray, first: int) -> Located:
     ours = coarse.indices[begin:end]
     numbers = np.delete(np.arange(len(points)), ours - first)
     points = for_kernels(np.concatenate((coarse.points, points[numbers])), np.float64)
-    n = len(points)
-    ring, waiting = empty_ring(n), nobody_waiting(n)
-    roots = np.empty((2 * n, 6), np.int32)
-    n_roots, _ = sweep_hull(points, ring, waiting, roots, np.zeros(4 * n, np.int32))
-    starts, room = bounds(waiting, n_roots)
+    places, rows, *_ = hull_roots(points)
+    starts, room = bounds(places, len(rows))
     size = int(starts[-1]) + 3 * room
     lists = Lists(*in_one_block((size, np.float64), (size, np.float64), (size, np.int32)))
-    gather(points, waiting, starts, lists)
-    placed = np.empty(2 * n, PLACED)  # on a side, a point is in two tiles
+    gather(points, places, starts, lists)
+    placed = np.empty(2 * len(points), PLACED)  # on a side, a point is in two tiles
     corners = np.empty((len(coarse), 3), np.int32)
     ends = np.empty(len(coarse) + 1, np.int64)
     n_tiles = _descend(
-        points, n_coarse, roots, starts, room, lists, waiting.repeats, placed, corners, ends
+        points, n_coarse, rows, starts, room, lists, places.repeats, placed, corners, ends
     )
     tiles = _tiles_of(coarse, corners[:n_tiles])
     counts = np.zeros(len(coarse), np.int64)
@@ -91,7 +86,7 @@ def locate(coarse: CoarseMesh, points: np.ndarray, first: int) -> Located:
     placed = np.concatenate(pieces) if pieces else placed[:0]
     ident = placed["ident"]
     placed["ident"] = np.where(ident < 0, ~numbers[~ident], numbers[ident])
-    return Located(placed, counts, int(np.count_nonzero(waiting.repeats[n_coarse:] >= 0)))
+    return Located(placed, counts, int(np.count_nonzero(places.repeats[n_coarse:] >= 0)))
 
 
 def _tiles_of(coarse: CoarseMesh, corners: np.ndarray) -> np.ndarray:

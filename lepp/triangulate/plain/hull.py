@@ -5,32 +5,102 @@ They are inserted here, in order, and make the root triangles; every other point
 root that holds it.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from lepp.geometry.predicates import orient, orientation, same, turn_is_certain
 from lepp.jit import inner, kernel
+from lepp.triangulate.plain.cells import settle_by_cells
 from lepp.triangulate.plain.edges import parts_of
-from lepp.triangulate.plain.ring import Ring, replace_edges, visible_chain
+from lepp.triangulate.plain.ring import empty_ring, replace_edges, visible_chain
 from lepp.triangulate.plain.waiting import (
     INSIDE,
     ON_HULL,
     ON_SIDE,
     OUTSIDE,
-    Waiting,
+    Places,
     hand_over,
+    nobody_placed,
+    nobody_waiting,
     repeat,
     wait_on_hull,
     wait_outside,
 )
 
+#: One point in so many goes ahead, to find roots for the others, if those are this many.
+_OPENING = 64
+_FEWEST = 1 << 6
 
-def sweep_hull(
-    points: np.ndarray, ring: Ring, waiting: Waiting, roots: np.ndarray, split: np.ndarray
-) -> tuple[int, int]:
+
+class Roots(NamedTuple):
+    """The root triangles of n points, and where the others are.
+
+    Attributes
+    ----------
+    places : Places
+        Every point that is no vertex yet, and repeats none of them, is `INSIDE` or `ON_SIDE`.
+    rows : (r, 6) int32 ndarray
+        Vertices and half-edges; none where all points lie on one line.
+    n_edges : int
+        Edges so far.
+    split : (4 n,) int32 ndarray
+        The first of the two edges into which an edge was split; 0 for none.
+    """
+
+    places: Places
+    rows: np.ndarray
+    n_edges: int
+    split: np.ndarray
+
+
+def hull_roots(points: np.ndarray) -> Roots:
     """Insert the points that are outside the hull, or on it, at their turn.
+
+    Most points of a large set are deep in a root that the first points make. They are done with
+    when that is seen, and extend no hull: only the others are swept.
+
+    Parameters
+    ----------
+    points : (n, 2) float64 ndarray
+        Finite, C-contiguous.
+    """
+    n = len(points)
+    opening = n // _OPENING
+    if opening < _FEWEST:
+        return _swept(points, n)
+    places = nobody_placed(n)
+    settle_by_cells(points, opening, _swept(points[:opening], 0).rows, places)
+    left = np.flatnonzero(places.state != INSIDE).astype(np.int32)
+    roots = _swept(points[left], n)
+    of, beyond, repeats, state = roots.places
+    places.of[left], places.beyond[left], places.state[left] = of, beyond, state
+    places.repeats[left] = np.where(repeats < 0, -1, left[repeats])
+    roots.rows[:, :3] = left[roots.rows[:, :3]]
+    return roots._replace(places=places)
+
+
+def _swept(points: np.ndarray, n_all: int) -> Roots:
+    """Do the same for points that are all swept, with room to split the edges of `n_all` points.
 
     A point outside waits at one hull edge that it sees, and moves on when that edge is covered,
     until it falls into one of the triangles made here, the roots.
+    """
+    n = len(points)
+    ring, waiting = empty_ring(n), nobody_waiting(n)
+    rows, split = np.empty((2 * n, 6), np.int32), np.zeros(4 * max(n, n_all), np.int32)
+    n_roots = n_edges = 0
+    turn, axis = _first_turn(points)
+    if turn < n:
+        chain = _chain(points, turn, axis, waiting.repeats)
+        n_roots, n_edges = _sweep(points, ring, waiting, rows, split, chain, turn)
+    places = Places(waiting.of, waiting.beyond, waiting.repeats, waiting.state)
+    return Roots(places, rows[:n_roots], n_edges, split)
+
+
+@kernel
+def _sweep(points, ring, waiting, roots, split, chain, turn):
+    """Insert the points from the first turn on.
 
     Parameters
     ----------
@@ -38,27 +108,20 @@ def sweep_hull(
     ring : Ring
         From `empty_ring`.
     waiting : Waiting
-        From `nobody_waiting`. In the end the points that are left are `INSIDE` or `ON_SIDE`.
+        From `nobody_waiting`.
     roots : (2 n, 6) int32 ndarray, output
         Vertices and half-edges of the root triangles.
     split : (4 n,) int32 ndarray, output
-        The first of the two edges into which an edge was split; 0 for none.
+        As in `Roots`.
+    chain : (k,) int64 ndarray
+        From `_chain`.
+    turn : int
+        From `_first_turn`.
 
     Returns
     -------
     n_roots, n_edges : int
     """
-    turn, axis = _first_turn(points)
-    if turn == len(points):
-        return 0, 0
-    chain = _chain(points, turn, axis, waiting.repeats)
-    n_roots, n_edges = _sweep(points, ring, waiting, roots, split, chain, turn)
-    return n_roots, n_edges
-
-
-@kernel
-def _sweep(points, ring, waiting, roots, split, chain, turn):
-    """Do the same from the first turn on."""
     _start_ring(ring, waiting, chain)
     _list_all(points, waiting, chain, turn)
     n_roots, n_edges = 0, len(chain) - 1

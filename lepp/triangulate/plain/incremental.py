@@ -12,36 +12,12 @@ sequential memory, and neighbouring triangles get neighbouring numbers. The resu
 one-by-one insertion, triangle for triangle.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from lepp.jit.memory import in_one_block
 from lepp.triangulate.plain.edges import link
-from lepp.triangulate.plain.hull import sweep_hull
-from lepp.triangulate.plain.ring import empty_ring
+from lepp.triangulate.plain.hull import Roots, hull_roots
 from lepp.triangulate.plain.subdivision import Lists, Mesh, bounds, gather, subdivide
-from lepp.triangulate.plain.waiting import Waiting, nobody_waiting
-
-
-class Roots(NamedTuple):
-    """The root triangles of n points, and where the others are.
-
-    Attributes
-    ----------
-    waiting : Waiting
-    rows : (r, 6) int32 ndarray
-        Vertices and half-edges.
-    n_edges : int
-        Edges so far.
-    split : (4 n,) int32 ndarray
-        The first part of each edge that has been split, else 0.
-    """
-
-    waiting: Waiting
-    rows: np.ndarray
-    n_edges: int
-    split: np.ndarray
 
 
 def incremental(
@@ -67,21 +43,6 @@ def incremental(
     return subdivided(points, hull_roots(points))
 
 
-def hull_roots(points: np.ndarray) -> Roots:
-    """Insert the points that are outside the hull, or on it, at their turn.
-
-    Parameters
-    ----------
-    points : (n, 2) float64 ndarray
-        Finite, C-contiguous.
-    """
-    n = len(points)
-    waiting, rows = nobody_waiting(n), np.empty((2 * n, 6), np.int32)
-    split = np.zeros(4 * n, np.int32)
-    n_roots, n_edges = sweep_hull(points, empty_ring(n), waiting, rows, split)
-    return Roots(waiting, rows[:n_roots], n_edges, split)
-
-
 def subdivided(
     points: np.ndarray, roots: Roots
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray | None]:
@@ -93,18 +54,18 @@ def subdivided(
         As from `incremental`.
     """
     n = len(points)
-    waiting, rows, n_edges, split = roots
-    starts, room = bounds(waiting, len(rows))
+    places, rows, n_edges, split = roots
+    starts, room = bounds(places, len(rows))
     size = int(starts[-1]) + 3 * room  # the lists, and room behind them for three stacks of others
     lists = Lists(*in_one_block((size, np.float64), (size, np.float64), (size, np.int32)))
-    gather(points, waiting, starts, lists)
+    gather(points, places, starts, lists)
     mesh = Mesh(
         np.empty((2 * n, 3), np.int32),
         np.empty((2 * n, 3), np.int32),
         np.zeros(8 * n, np.int32),
         np.empty(2 * n, np.uint8),
     )
-    repeats = waiting.repeats
+    repeats = places.repeats
     m, certain = subdivide(points, rows, starts, room, lists, n_edges, split, repeats, mesh)
     neighbors = mesh.half_edges[:m]
     link(neighbors, mesh.owners)

@@ -48,7 +48,7 @@ JOB = np.dtype(
 
 
 @kernel
-def bounds(waiting, n_roots):
+def bounds(places, n_roots):
     """Find how many points each root triangle has.
 
     Returns
@@ -58,7 +58,7 @@ def bounds(waiting, n_roots):
     room : int
         More than the points and their repetitions that can be on the lists of one root's parts.
     """
-    state, of, beyond = waiting.state, waiting.of, waiting.beyond
+    state, of, beyond = places.state, places.of, places.beyond
     count = np.zeros(n_roots, np.int64)
     for i in range(len(state)):
         if state[i] == INSIDE or state[i] == ON_SIDE:
@@ -74,10 +74,10 @@ def bounds(waiting, n_roots):
 
 
 @kernel
-def gather(points, waiting, starts, lists):
+def gather(points, places, starts, lists):
     """List the points that are left by root triangle, in the order of insertion."""
     x, y, ident = lists
-    state, of, beyond = waiting.state, waiting.of, waiting.beyond
+    state, of, beyond = places.state, places.of, places.beyond
     end = starts[:-1].copy()
     for i in range(len(state)):
         if state[i] != INSIDE and state[i] != ON_SIDE:

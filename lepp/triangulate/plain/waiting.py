@@ -24,25 +24,40 @@ ON_SIDE = 4
 """State of a point on a side of root triangle `of`: and of `beyond`, unless that is -1."""
 
 
-class Waiting(NamedTuple):
-    """Where each of n points is, and lists of those that wait at each of e hull edges."""
+class Places(NamedTuple):
+    """Where each of n points is."""
 
-    seeing: np.ndarray  # (e,) int32, the first of the points outside that are listed with this edge
-    lying: np.ndarray  # (e,) int32, the first of the points on it
-    following: np.ndarray  # (n,) int32, the next point of the list
     of: np.ndarray  # (n,) int32, hull edge or root triangle, according to the state
     beyond: np.ndarray  # (n,) int32, the second root triangle of a point on a side, or -1
     repeats: np.ndarray  # (n,) int32, the point that this one repeats, or -1
     state: np.ndarray  # (n,) int8
 
 
+class Waiting(NamedTuple):
+    """The same, and lists of those that wait at each of e hull edges."""
+
+    seeing: np.ndarray  # (e,) int32, the first of the points outside that are listed with this edge
+    lying: np.ndarray  # (e,) int32, the first of the points on it
+    following: np.ndarray  # (n,) int32, the next point of the list
+    of: np.ndarray
+    beyond: np.ndarray
+    repeats: np.ndarray
+    state: np.ndarray
+
+
+def nobody_placed(n: int) -> Places:
+    """Return room for n points."""
+    point = (n, np.int32)
+    places = Places(*in_one_block(point, point, point, (n, np.int8)))
+    places.state.fill(DONE)
+    places.repeats.fill(-1)
+    return places
+
+
 def nobody_waiting(n: int) -> Waiting:
     """Return room for n points, and for the hull edges that they can make."""
-    edge, point = (2 * n + 4, np.int32), (n, np.int32)
-    waiting = Waiting(*in_one_block(edge, edge, point, point, point, point, (n, np.int8)))
-    waiting.state.fill(DONE)
-    waiting.repeats.fill(-1)
-    return waiting
+    edge = (2 * n + 4, np.int32)
+    return Waiting(*in_one_block(edge, edge, (n, np.int32)), *nobody_placed(n))
 
 
 @inlined
