@@ -29,22 +29,27 @@ def settle_by_cells(points: np.ndarray, first: int, roots: np.ndarray, places: P
     places : Places
         Points that are found become `INSIDE`; the others stay as they are.
     """
-    n_cells = min(int(sqrt(len(points) - first)), _MOST)
+    n_cells = min(int(sqrt((len(points) - first) / 2)), _MOST)
     x_low, x_width = _columns(points[:first, 0], n_cells)
     y_low, y_width = _columns(points[:first, 1], n_cells)
     if not (0.0 < x_width < np.inf and 0.0 < y_width < np.inf):
         return  # no doubles for them
     cells = np.full(n_cells * n_cells, -1, np.int32)
     for root in range(len(roots)):
-        _fill(cells, n_cells, points, roots[root], root, (x_low, y_low, x_width, y_width))
+        a, b, c = roots[root, 0], roots[root, 1], roots[root, 2]
+        corners = (
+            points[a, 0], points[a, 1], points[b, 0], points[b, 1], points[c, 0], points[c, 1]
+        )  # fmt: skip
+        _fill(cells, n_cells, corners, root, (x_low, y_low, x_width, y_width))
     x_scale, y_scale = 1.0 / x_width, 1.0 / y_width
+    of, state = places.of, places.state
     for i in range(first, len(points)):
         column, row = (points[i, 0] - x_low) * x_scale, (points[i, 1] - y_low) * y_scale
-        if (column >= 0.0) & (column < n_cells) & (row >= 0.0) & (row < n_cells):
-            root = cells[int(row) * n_cells + int(column)]
-            places.of[i] = root
-            if root >= 0:
-                places.state[i] = INSIDE
+        is_there = (column >= 0.0) & (column < n_cells) & (row >= 0.0) & (row < n_cells)
+        cell = int(row) * n_cells + int(column) if is_there else 0
+        root = cells[cell] if is_there else -1
+        of[i] = root
+        state[i] = INSIDE if root >= 0 else state[i]
 
 
 @inner
@@ -63,49 +68,45 @@ def _columns(along, n_cells):
 
 
 @inner
-def _fill(cells, n_cells, points, row, root, grid):
+def _fill(cells, n_cells, corners, root, grid):
     """Mark the cells that lie in a root triangle, row of cells by row of cells.
 
     A run of cells is inside if its four corners are. Where it begins and ends is computed as it
     comes, and then proven by the exact predicate.
     """
+    a_x, a_y, b_x, b_y, c_x, c_y = corners
     x_low, y_low, x_width, y_width = grid
-    u, v = np.empty(4), np.empty(4)  # the vertices, in cells; the first once more
-    for j in range(4):
-        vertex = row[j % 3]
-        u[j] = (points[vertex, 0] - x_low) / x_width
-        v[j] = (points[vertex, 1] - y_low) / y_width
+    u = ((a_x - x_low) / x_width, (b_x - x_low) / x_width, (c_x - x_low) / x_width)
+    v = ((a_y - y_low) / y_width, (b_y - y_low) / y_width, (c_y - y_low) / y_width)
     first, stop = max(ceil(min(v)), 0), min(floor(max(v)), n_cells)
     for k in range(first, stop):
         left, right = 0.0, float(n_cells)
         for j in range(3):
-            slope = (u[j + 1] - u[j]) / (v[j + 1] - v[j])
+            next_u, next_v = u[j - 2], v[j - 2]
+            slope = (next_u - u[j]) / (next_v - v[j])
             below, above = u[j] + slope * (k - v[j]), u[j] + slope * (k + 1 - v[j])
-            if v[j + 1] < v[j]:
+            if next_v < v[j]:
                 left = max(left, below, above)
-            elif v[j + 1] > v[j]:
+            elif next_v > v[j]:
                 right = min(right, below, above)
         begin, end = ceil(left), floor(right)
-        if begin < end and _holds(
-            points, row,
-            (x_low + (begin - _MARGIN) * x_width, y_low + (k - _MARGIN) * y_width,
-             x_low + (end + _MARGIN) * x_width, y_low + (k + 1 + _MARGIN) * y_width),
-        ):  # fmt: skip
-            cells[k * n_cells + begin : k * n_cells + end] = root
+        box = (
+            x_low + (begin - _MARGIN) * x_width, y_low + (k - _MARGIN) * y_width,
+            x_low + (end + _MARGIN) * x_width, y_low + (k + 1 + _MARGIN) * y_width,
+        )  # fmt: skip
+        if (
+            begin < end
+            and _is_left(a_x, a_y, b_x, b_y, box)
+            and _is_left(b_x, b_y, c_x, c_y, box)
+            and _is_left(c_x, c_y, a_x, a_y, box)
+        ):
+            for cell in range(k * n_cells + begin, k * n_cells + end):
+                cells[cell] = root
 
 
 @inner
-def _holds(points, row, box):
-    """Tell whether a box lies inside a triangle."""
+def _is_left(a_x, a_y, b_x, b_y, box):
+    """Tell whether a box lies to the left of an edge: whether its rightmost corner does."""
     left, below, right, above = box
-    for j in range(3):
-        a, b = row[j], row[(j + 1) % 3]
-        a_x, a_y, b_x, b_y = points[a, 0], points[a, 1], points[b, 0], points[b, 1]
-        if (
-            orientation(a_x, a_y, b_x, b_y, left, below) <= 0
-            or orientation(a_x, a_y, b_x, b_y, right, below) <= 0
-            or orientation(a_x, a_y, b_x, b_y, right, above) <= 0
-            or orientation(a_x, a_y, b_x, b_y, left, above) <= 0
-        ):
-            return False
-    return True
+    x, y = right if b_y > a_y else left, below if b_x > a_x else above
+    return orientation(a_x, a_y, b_x, b_y, x, y) > 0
