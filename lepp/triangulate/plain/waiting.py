@@ -57,7 +57,8 @@ def nobody_placed(n: int) -> Places:
 def nobody_waiting(n: int) -> Waiting:
     """Return room for n points, and for the hull edges that they can make."""
     edge = (2 * n + 4, np.int32)
-    return Waiting(*in_one_block(edge, edge, (n, np.int32)), *nobody_placed(n))
+    seeing, lying, following = in_one_block(edge, edge, (n, np.int32))
+    return Waiting(seeing, lying, following, *nobody_placed(n))
 
 
 @inlined

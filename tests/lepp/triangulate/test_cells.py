@@ -45,7 +45,7 @@ def test_cells_settle_only_what_is_inside(kind):
     roots = hull_roots(points[:100])
     n_settled = settled(points, roots.rows[:, :3], 100)
     if kind in ("uniform", "normal", "offset", "thin"):
-        assert n_settled > 0.5 * len(points)
+        assert n_settled > 0.4 * len(points)
 
 
 def test_most_points_of_a_large_set_are_settled_by_cells():
@@ -53,7 +53,7 @@ def test_most_points_of_a_large_set_are_settled_by_cells():
     roots = hull_roots(points[:1500])
     places = nobody_placed(len(points))
     settle_by_cells(points, 1500, roots.rows, places)
-    assert (places.state == INSIDE).mean() > 0.85
+    assert (places.state == INSIDE).mean() > 0.8
 
 
 @pytest.mark.parametrize(
@@ -71,7 +71,8 @@ def test_a_side_at_the_rim_of_a_cell_has_nothing_inside(low, high):
         for nudge in range(-3, 4):
             side = rim + nudge * np.spacing(rim)
             corners, triangles = parted(low, side, high)
-            share = np.linspace(0.01, 0.99, n_cells * n_cells)
+            triangles += [t[k:] + t[:k] for t in triangles for k in (1, 2)]
+            share = np.linspace(0.01, 0.99, 2 * n_cells**2)
             y = low * (1 - share) + high * share
             points = np.vstack((corners, np.column_stack((np.full(len(y), side), y))))
             assert settled(points, triangles, len(corners)) == 0
