@@ -150,14 +150,11 @@ class StagedTask(Protocol):
     def memory(self) -> int:
         """Bytes that each job takes."""
 
-    def stages(self) -> Iterator[Stage]:
-        """Yield the stages; the next is asked for when all jobs of the last are done.
+    def check_disk(self) -> None:
+        """Raise `InputError` if there is no room for the files that are not there yet."""
 
-        Raises
-        ------
-        InputError
-            If there is no room for the files.
-        """
+    def stages(self) -> Iterator[Stage]:
+        """Yield the stages; the next is asked for when all jobs of the last are done."""
 
     def perform(self, name: str, job: int) -> None:
         """Do a job of a stage."""

@@ -173,7 +173,13 @@ def compute(
 
 
 def _staged(workers: Workers, store: Store) -> dict[Any, StagedTask]:
-    """Return the unfinished tasks that are too large for the workers, if they can be parted."""
+    """Return the unfinished tasks that are too large for the workers, if they can be parted.
+
+    Raises
+    ------
+    InputError
+        If the disk has no room for one of them; nothing has been computed then.
+    """
     largest = workers.largest if workers.now else _TYPICAL_MEMORY
     each = largest if workers.memory is None else min(largest, workers.memory / workers.now)
     staged = {}
@@ -182,6 +188,7 @@ def _staged(workers: Workers, store: Store) -> dict[Any, StagedTask]:
             directory = store.directory / STAGES / "-".join(map(str, task))
             parts = store.kind.in_stages(task, store.design, directory, int(each))
             if parts is not None:
+                parts.check_disk()
                 staged[task] = parts
     return staged
 

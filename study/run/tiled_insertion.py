@@ -82,7 +82,8 @@ class TiledInsertion:
         """Raise `InputError` if the disk has no room for the points that are still to be sent."""
         there = len(list(self.directory.glob("locate-*.pickle"))) * BLOCK
         needed = max(self.n_points - there, 0) * (PLACED.itemsize + 2)
-        free = shutil.disk_usage(self.directory).free
+        there_now = (self.directory, *self.directory.parents)
+        free = shutil.disk_usage(next(path for path in there_now if path.exists())).free
         if needed > free:
             raise InputError(
                 f"{self.n_points:,} points take {needed / 1e9:,.1f} GB of disk beside the results, "

@@ -280,10 +280,13 @@ class StagedTriangulation:
         seed, correlation = self.design.seed, self.design.correlation
         return TiledInsertion(*self.task, seed, correlation, self.directory, self.memory)
 
-    def stages(self) -> Iterator[Stage]:
-        """Yield the stages, once there is room for them."""
-        self.directory.mkdir(parents=True, exist_ok=True)
+    def check_disk(self) -> None:
+        """Raise `InputError` if there is no room for its files."""
         self._insertion.check_disk()
+
+    def stages(self) -> Iterator[Stage]:
+        """Yield the stages."""
+        self.directory.mkdir(parents=True, exist_ok=True)
         yield from self._insertion.stages()
 
     def perform(self, name: str, job: int) -> None:

@@ -1,8 +1,8 @@
 """A plain insertion in stages gives the rows of one that is done at once."""
 
 import shutil
-from collections import namedtuple
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
@@ -14,7 +14,7 @@ from study.design.sampling import DISTRIBUTIONS
 from study.results.store import Store
 from study.run.cluster import ClusterOptions
 from study.run.kinds import Stage
-from study.run.runner import STAGES, run
+from study.run.runner import STAGES, compute, run
 from study.run.triangulations import TRIANGULATIONS, Task
 
 from faults import Heard, contents  # isort: skip
@@ -81,17 +81,33 @@ def test_no_job_is_done_twice(tmp_path, small):
     assert staged(tmp_path).outcome().rows["layers"] == whole.rows["layers"]
 
 
+def have_free(monkeypatch, n_bytes):
+    monkeypatch.setattr(shutil, "disk_usage", lambda path: SimpleNamespace(free=n_bytes))
+
+
 def test_points_have_to_fit_on_the_disk(tmp_path, small, monkeypatch):
-    usage = namedtuple("usage", "free")
     needed = 20_500 * 22
-    monkeypatch.setattr(shutil, "disk_usage", lambda path: usage(needed - 1))
+    have_free(monkeypatch, needed - 1)
     with pytest.raises(InputError, match=r"20,500 points take 0\.0 GB of disk"):
-        list(staged(tmp_path).stages())
-    monkeypatch.setattr(shutil, "disk_usage", lambda path: usage(needed))
+        staged(tmp_path).check_disk()
+    assert list(tmp_path.iterdir()) == []
+    have_free(monkeypatch, needed)
+    staged(tmp_path).check_disk()
     finish(staged(tmp_path))
     # What is there already is not asked for again.
-    monkeypatch.setattr(shutil, "disk_usage", lambda path: usage(0))
-    assert finish(staged(tmp_path)) == []
+    have_free(monkeypatch, 0)
+    staged(tmp_path).check_disk()
+
+
+def test_a_run_that_lacks_disk_for_its_last_task_does_not_begin(tmp_path, small, monkeypatch):
+    have_free(monkeypatch, 20_500 * 22 - 1)
+    settings = {"methods": ["incremental"], "distributions": ["uniform"], "sizes": [100, 20_500]}
+    design = Design.from_settings(settings | {"repetitions": 1})
+    workers = SimpleNamespace(look=lambda: None, now=1, largest=1_000_000, memory=None)
+    with Store(tmp_path, TRIANGULATIONS, design) as store:
+        outcomes = compute(workers, waiting=None, store=store, listener=None)
+        with pytest.raises(InputError, match="of disk beside the results"):
+            next(outcomes)
 
 
 def test_only_plain_insertion_by_itself_is_staged(tmp_path):
