@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from reports.cli.bench import bench
 from reports.cli.signals import exit_code, stop_once
 
 if TYPE_CHECKING:
@@ -110,6 +111,9 @@ class Commands(click.Group):
 @click.version_option(package_name="lepp-study")
 def main() -> None:
     """Study the longest-edge propagation path (LEPP) of random triangulations."""
+
+
+main.add_command(bench)
 
 
 @main.command()
@@ -228,43 +232,6 @@ def compile_kernels() -> None:
             "own: set NUMBA_CACHE_DIR to one that you can write to."
         )
     click.echo(f"The kernels are kept in {directory}")
-
-
-@main.command()
-@click.option(
-    "--points",
-    metavar="N",
-    type=click.IntRange(min=3),
-    default=200_000,
-    show_default=True,
-    help="Points of a set.",
-)
-@click.option(
-    "--repeats",
-    metavar="N",
-    type=click.IntRange(min=1),
-    default=5,
-    show_default=True,
-    help="Times that each is measured; the median counts.",
-)
-def bench(points: int, repeats: int) -> None:
-    """Measure this machine: triangulation and LEPP against scipy.spatial.Delaunay."""
-    from rich.console import Console
-    from rich.table import Table
-
-    from study.run import benchmark
-
-    rows = benchmark.run(points, repeats)
-    name, *numbers = rows[0]
-    table = Table(title=f"{points:,} uniform points, one core")
-    table.add_column(name, no_wrap=True)
-    for number in numbers:
-        table.add_column(number, justify="right")
-    for row in rows:
-        table.add_row(*row.values())
-    console = Console()
-    # Elsewhere than on a terminal, rich takes lines to have 80 characters.
-    console.print(table, width=None if console.is_terminal else 110)
 
 
 def _choose(

@@ -277,10 +277,3 @@ def test_help_and_version_import_nothing_heavy():
         [sys.executable, "-c", code], capture_output=True, text=True, check=True, env=os.environ
     )
     assert done.stdout == "\n"
-
-
-def test_bench_prints_a_row_for_each_thing_measured():
-    result = lepp_study("bench", "--points", "2000", "--repeats", "1")
-    assert result.exit_code == 0, result.output
-    assert "scipy.spatial.Delaunay" in result.output
-    assert "incremental: both" in result.output
