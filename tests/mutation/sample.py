@@ -228,7 +228,7 @@ def examine(name, target, number, seed, tree):
     """Run the tests of a sample of mutants; print the survivors; return (killed, tried)."""
     modules = [str(path.relative_to(ROOT)) for name in target["tests"] for path in tests_in(name)]
     options = [
-        *target.get("options", ()), "-x", "-q", "--tb=short", "-W", "ignore",
+        *target.get("options", ()), "-n0", "-x", "-q", "--tb=short", "-W", "ignore",
         "-p", "no:cacheprovider", "--hypothesis-profile=mutation",
     ]  # fmt: skip
     plugins = [KeptEvidence(str(tree / "evidence"))] if target.get("keep_evidence") else []

@@ -1,3 +1,5 @@
+from contextlib import contextmanager
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -8,11 +10,17 @@ from study.analysis.analyse import analyse
 from study.paper import published
 
 
-@pytest.fixture(scope="session", autouse=True)
-def _short_worst_case():
+@contextmanager
+def short_worst_case():
     """No test of a statistic needs a strip of a million triangles."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("study.analysis.worst_case_strip._SIZES", (1, 2, 3))
+        yield
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _short_worst_case():
+    with short_worst_case():
         yield
 
 
@@ -21,7 +29,8 @@ def study():
     """A small study by two methods: design, frames and tables."""
     asked = design(methods=("incremental", "delaunay"))
     made = frames(asked)
-    return asked, made, analyse(*made, asked)
+    with short_worst_case():
+        return asked, made, analyse(*made, asked)
 
 
 @pytest.fixture(scope="session")
@@ -39,4 +48,5 @@ def paper_study():
         group["max_lepp"] = np.repeat([int(largest.value) - 1, int(largest.value) + 1], 20)
         rows.append(group)
     made = (pd.concat(rows, ignore_index=True), *others)
-    return asked, made, analyse(*made, asked)
+    with short_worst_case():
+        return asked, made, analyse(*made, asked)
