@@ -217,25 +217,36 @@ def _time(work: Callable[..., T], *arguments: object, **options: object) -> tupl
 
 # In a process of its own: what others have taken before is not counted, nor given back.
 _TAKEN = """
-import resource, sys
-import lepp, psutil
+import sys
+from threading import Event, Thread
+
+import psutil
+
+import lepp
 from study.design.sampling import sample_points
 from study.run.counted import Counted
 
+def taken():
+    return psutil.Process().memory_info().rss
+
+def watch():
+    while not done.wait(0.001):
+        seen.append(taken())
+
 method, n = sys.argv[1], int(sys.argv[2])
 Counted.of(lepp.triangulate(sample_points("uniform", 1000, 0, seed=0), method))
-before = psutil.Process().memory_info().rss
+seen, done = [taken()], Event()
+thread = Thread(target=watch)
+thread.start()
 Counted.of(lepp.triangulate(sample_points("uniform", n, 0, seed=0), method))
-peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-print((peak * (1 if sys.platform == "darwin" else 1024) - before) / n)
+done.set()
+thread.join()
+print((max(seen) - seen[0]) / n)
 """
 
 
 def memory(method: str, n_points: int) -> Measurement:
-    """Measure the memory that a point set, its triangulation and its paths take at a time.
-
-    For millions of points: what loading the kernels takes for a moment is more than few points do.
-    """
+    """Measure the memory that a point set, its triangulation and its paths take at a time."""
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
     command = [sys.executable, "-c", _TAKEN, method, str(n_points)]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)

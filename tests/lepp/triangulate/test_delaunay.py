@@ -6,7 +6,7 @@ import naive
 import naive_delaunay
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from point_sets import nasty_points, reference_points
 from scipy.spatial import Delaunay
@@ -61,13 +61,19 @@ def test_cells_are_those_of_one_by_one_insertion(points):
     n=st.integers(4, 2000),
     seed=st.integers(0, 2**32 - 1),
 )
-def test_triangles_are_those_of_scipy(kind, n, seed):
+@example("parabola", 600, 14361143)
+def test_triangles_are_those_of_scipy_but_where_it_errs(kind, n, seed):
     points = reference_points(kind, n, seed)
     if kind == "clusters":  # SciPy joins points so near to each other
         points = np.round(points) + (points - np.round(points)) * 1e6
-    theirs = {tuple(t) for t in np.sort(Delaunay(points).simplices).tolist()}
-    ours = triangulate(points).triangles
-    assert {tuple(t) for t in np.sort(ours).tolist()} == theirs
+    theirs = {frozenset(t) for t in Delaunay(points).simplices.tolist()}
+    ours = triangulate(points).triangles.tolist()
+    others = [t for t in ours if frozenset(t) not in theirs]
+    assert len(others) < 5  # SciPy rounds, and points of a parabola are nearly on a circle
+    exact = naive.exact(points) if others else []
+    for t in others:
+        circle = [exact[v] for v in t]
+        assert all(naive_delaunay.in_circle(*circle, p) <= 0 for p in exact)
 
 
 def grid(width, height, step=1.0):
