@@ -1,6 +1,7 @@
 """The variance between triangulations as a smooth function of the number of points."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Self
 
 import numpy as np
@@ -46,12 +47,22 @@ def smooth_variances(groups: Groups) -> np.ndarray:
     repeated = groups.repeated()
     if not len(repeated):
         raise NotEnough("no size has two or more differing triangulations")
-    fit = _Fit.of(repeated, 2)
+    known = (repeated.n_points, repeated.counts, repeated.variances)
+    return _best_fit(*(tuple(array.tolist()) for array in known)).variances(groups.n_points)
+
+
+@lru_cache(maxsize=256)  # one group after the other is asked for by many models
+def _best_fit(
+    n_points: tuple[int, ...], counts: tuple[int, ...], variances: tuple[float, ...]
+) -> "_Fit":
+    """Fit a curve where the deviance asks for it, else a line."""
+    known = (np.array(n_points), np.array(counts), np.array(variances))
+    fit = _Fit.of(*known, 2)
     # Of fewer the deviance is no chi-squared.
-    if len(repeated) >= _LEAST_SIZES and repeated.counts.min() >= _LEAST_COUNT:
-        bent = _Fit.of(repeated, 3)
+    if len(n_points) >= _LEAST_SIZES and min(counts) >= _LEAST_COUNT:
+        bent = _Fit.of(*known, 3)
         fit = bent if fit.deviance - bent.deviance > _CURVED else fit
-    return fit.variances(groups.n_points)
+    return fit
 
 
 @dataclass(frozen=True)
@@ -63,16 +74,16 @@ class _Fit:
     deviance: float
 
     @classmethod
-    def of(cls, groups: Groups, coefficients: int) -> Self:
-        df = groups.counts - 1.0
-        center = float(np.average(np.log(groups.n_points), weights=df))
-        basis = _basis(groups.n_points, center, min(coefficients, len(groups)))
+    def of(
+        cls, n_points: np.ndarray, counts: np.ndarray, variances: np.ndarray, coefficients: int
+    ) -> Self:
+        df = counts - 1.0
+        center = float(np.average(np.log(n_points), weights=df))
+        basis = _basis(n_points, center, min(coefficients, len(n_points)))
         root = np.sqrt(df)
-        fitted = np.linalg.lstsq(
-            basis * root[:, None], np.log(groups.variances) * root, rcond=None
-        )[0]
+        fitted = np.linalg.lstsq(basis * root[:, None], np.log(variances) * root, rcond=None)[0]
         for _ in range(_MOST_STEPS):
-            excess = groups.variances / np.exp(basis @ fitted) - 1
+            excess = variances / np.exp(basis @ fitted) - 1
             step = np.linalg.lstsq(basis * root[:, None], excess * root, rcond=None)[0]
             # Bounded, so that a bad start cannot throw the fit far off.
             length = np.abs(basis @ step).max()
@@ -80,7 +91,7 @@ class _Fit:
             if length < _CLOSE:
                 break
         log_variance = basis @ fitted
-        ratio = groups.variances / np.exp(log_variance)
+        ratio = variances / np.exp(log_variance)
         return cls(center, fitted, float(df @ (ratio - 1 - np.log(ratio))))
 
     def variances(self, n_points: np.ndarray) -> np.ndarray:
