@@ -77,6 +77,7 @@ SPREAD = np.tile([0.8, -0.8], 10)
         (0.57 + SPREAD, "agrees"),
         (0.58 + SPREAD, "differs"),  # a shift of 2.59 standard errors: p 0.0095
         (-0.58 + SPREAD, "differs"),
+        (np.full(20, 0.58), "differs"),  # by the same shift, though nearer than chance
         (np.tile([1.36, -1.36], 10), "agrees"),
         (np.tile([1.38, -1.38], 10), "differs"),  # chi-squared 38.1
         (np.tile([0.65, -0.65], 10), "agrees"),
@@ -126,7 +127,29 @@ def test_the_same_design_has_the_same_errors(paper_study):
 
 def test_every_published_number_is_there(paper_study):
     counts = scoreboard(paper_study[2])["published_table"].value_counts().to_dict()
-    assert counts == {1: 16, 2: 4, 3: 8, 4: 80, 5: 4, 6: 16, 7: 9 + 8 + 1}
+    assert counts == PUBLISHED_NUMBERS
+
+
+PUBLISHED_NUMBERS = {1: 16, 2: 4, 3: 8, 4: 80, 5: 4, 6: 16, 7: 9 + 8 + 1}
+
+
+def test_every_published_number_is_there_for_each_method_of_any_design(study):
+    frame, summary = study[2]["reproduction"].frame, study[2]["reproduction_summary"].frame
+    for method in ("incremental", "delaunay"):
+        of_method = frame[frame["method"] == method]["published_table"].value_counts().to_dict()
+        counted = summary[summary["method"] == method].set_index("published_table")["numbers"]
+        assert of_method == counted.to_dict() == PUBLISHED_NUMBERS
+
+
+def test_equal_variances_are_tested_about_means_as_in_the_paper(paper_study):
+    asked, (results, *others), _ = paper_study
+    z = results.groupby("n_points")["mean_lepp"].transform(stats.zscore, ddof=1)
+    skewed = results.assign(mean_lepp=results["mean_lepp"] + 0.003 * (z**2 - 1))
+    tables = analyse(skewed, *others, asked)
+    groups = [g["mean_lepp"].to_numpy() for _, g in skewed.groupby("n_points")]
+    by_mean, by_median = (stats.levene(*groups, center=c).statistic for c in ("mean", "median"))
+    assert by_mean > 1.05 * by_median
+    assert pytest.approx(by_mean) in scoreboard(tables, published_table=2)["ours"].tolist()
 
 
 def test_the_misprinted_slope_is_named(paper_study):

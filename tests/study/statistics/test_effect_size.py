@@ -4,7 +4,19 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from study.statistics.effect_size import population_share
+from study.statistics.effect_size import eta_squared, omega_squared, population_share
+
+
+def test_shares_are_those_of_sums_of_squares():
+    groups = [np.array([1.0, 2.0, 4.0]), np.array([2.0, 5.0, 6.0, 7.0]), np.array([0.0, 1.0])]
+    every = np.concatenate(groups)
+    between = sum(len(g) * (g.mean() - every.mean()) ** 2 for g in groups)
+    whole = ((every - every.mean()) ** 2).sum()
+    within = (whole - between) / 6
+    f = stats.f_oneway(*groups).statistic
+    assert eta_squared(f, 2, 6) == pytest.approx(between / whole)
+    assert omega_squared(f, 2, 9) == pytest.approx((between - 2 * within) / (whole + within))
+    assert omega_squared(0.5, 2, 9) == 0
 
 
 @pytest.mark.parametrize("f", [1.5, 33.34, 3000.0, 1e6])

@@ -6,7 +6,7 @@ from scipy import optimize, stats
 from statsmodels.regression.linear_model import OLS
 
 from study.statistics.models import LINEAR_MODELS
-from study.statistics.rounding import RoundedGroups, RoundedRegression
+from study.statistics.rounding import RoundedGroups, RoundedRegression, by_logit
 
 MODELS = {model.name: model for model in LINEAR_MODELS} | {"analysis of variance": None}
 
@@ -134,6 +134,20 @@ def test_t_is_bounded_at_corners():
     t = made.t_statistic(0, 4)(made.means, made.sds)
     values = values_of(made, np.random.default_rng(0), made.means, made.sds)[0]
     assert t == pytest.approx(stats.ttest_1samp(values, 4).statistic)
+
+
+def test_means_of_logits_lie_between_taylors_bounds():
+    made, n = groups(), 8
+    bounds = []
+    for side in (-1, 1):
+        m, s = made.means + side * made.mean_half, made.sds + side * made.sd_half
+        # No value lies further out than this, where the second derivative is the least or largest.
+        y = m + side * (made.sds + made.sd_half) * (n - 1) / np.sqrt(n)
+        second = 1 / (4 - y) ** 2 - 1 / y**2
+        bounds.append(np.log(m / (4 - m)) + second * s**2 * (n - 1) / n / 2)
+    found = by_logit(made)
+    np.testing.assert_allclose(found.center - found.half, bounds[0], rtol=1e-12)
+    np.testing.assert_allclose(found.center + found.half, bounds[1], rtol=1e-12)
 
 
 def test_logits_need_values_between_two_and_four():

@@ -22,6 +22,7 @@ from study.text.notation import typeset
         ("-10.0 %", "−10.0\u00a0%"),
         ("log10 p = -33.8", "p = 2\u00a0×\u00a010⁻³⁴"),
         ("log10 p at most -3.02", "p at most 1\u00a0×\u00a010⁻³"),
+        ("log10 p = -4.3", "p = 5\u00a0×\u00a010⁻⁵"),
         ("log10 p", "log₁₀ p"),
         ("Spearman's rho -0.84", "Spearman's ρ −0.84"),
         ("to 10^9 points", "to 10⁹ points"),

@@ -46,6 +46,7 @@ from study.text.numbers import (
         ("agrees", "text", "agrees"),
         ("c - a x^(-b)", "text", "c − a x⁻ᵇ"),
         ("agrees", "verdict", "agrees"),
+        ("c - a x^2", "verdict", "c - a x^2"),
         ("bivariate_normal", "name", "bivariate normal"),
         (float("-inf"), "g3", "−∞"),
         (np.int64(7), "int", "7"),
@@ -53,6 +54,14 @@ from study.text.numbers import (
 )
 def test_show(value: object, how: str, text: str) -> None:
     assert show(value, how) == text
+
+
+def test_p_changes_its_form_at_a_thousandth_and_at_the_least() -> None:
+    assert p_value_from_log10(-2.5) == "0.0032"
+    assert p_value_from_log10(-3.0) == "0.0010"
+    assert p_value_from_log10(-3.1) == "7.9\u00a0×\u00a010⁻⁴"
+    assert p_value_from_log10(-307.0) == "1.0\u00a0×\u00a010⁻³⁰⁷"
+    assert p_value_from_log10(-307.1) == "<\u00a010⁻³⁰⁷"
 
 
 def test_a_small_p_is_never_shown_as_zero() -> None:
@@ -81,5 +90,8 @@ def test_words() -> None:
     assert listed(["a"]) == "a"
     assert listed(["a", "b", "c"]) == "a, b and c"
     assert large(336_000_000) == "336 million"
+    assert large(1_000_000) == "1 million"
+    assert large(10**9) == "1 billion"
+    assert large(999_999) == "999,999"
     assert thousands(10_000) == "10k"
     assert thousands(500) == "500"
