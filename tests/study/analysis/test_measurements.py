@@ -36,6 +36,13 @@ def test_the_interior_is_the_last_layer_and_the_whole_is_all():
         assert len(seen) == (histograms["distribution"] == distribution).sum()
 
 
+def test_populations_are_methods_with_distributions():
+    asked = design(methods=("incremental", "delaunay"))
+    assert list(Measurements.of(*frames(asked), asked).populations) == [
+        (method, distribution) for method in asked.methods for distribution in asked.distributions
+    ]
+
+
 def test_a_mesh_without_an_interior_is_in_no_group_of_it():
     results, histograms, regions, layers, sets = frames(ASKED)
     small = layers["n_points"] == ASKED.sizes[0]

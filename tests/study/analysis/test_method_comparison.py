@@ -1,12 +1,17 @@
 """Methods on the same points, and the paper's statements."""
 
 import numpy as np
+import pandas as pd
 import pytest
 from frames import design, failed, frames
 from scipy import stats
 from statsmodels.regression.linear_model import OLS
 
 from study.analysis.analyse import analyse
+from study.analysis.building import Study
+from study.analysis.measurements import Measurements
+from study.analysis.method_comparison import _difference, _paired
+from study.analysis.table import Tables
 
 
 def test_differences_are_paired_t_tests(study):
@@ -36,6 +41,31 @@ def test_point_sets_that_one_method_failed_on_are_left_out():
     results, *others = frames(asked)
     frame = analyse(failed(results, [0]), *others, asked)["methods"].frame
     assert frame.groupby("n_points")["pairs"].max().tolist() == [5, 6, 6, 6]
+
+
+@pytest.mark.parametrize("name", ["another", "zigzag"])
+def test_all_methods_are_held_against_the_reference_whatever_their_names(name):
+    asked = design(methods=("incremental", "delaunay"), distributions=("uniform",))
+    results, *others = frames(asked)
+    third = [frame.assign(method=name) for frame in (results, *others[:-1])]
+    made = [
+        pd.concat(pair, ignore_index=True)
+        for pair in zip((results, *others[:-1]), third, strict=True)
+    ]
+    wider = asked.model_copy(update={"methods": (*asked.methods, name)})
+    study = Study(Measurements.of(*made, others[-1], wider), Tables())
+    assert [(first, second) for _, first, second, _ in _paired(study)] == [
+        ("incremental", "delaunay"),
+        ("incremental", name),
+    ]
+
+
+@pytest.mark.parametrize("constant", [0, 1])
+def test_what_does_not_vary_has_no_correlation(constant):
+    pair = [np.array([1.0, 2.0, 4.0]), np.array([3.0, 7.0, 8.0])]
+    assert "correlation" in _difference(*pair)
+    pair[constant] = np.full(3, 5.0)
+    assert "correlation" not in _difference(*pair)
 
 
 def test_one_method_has_nothing_to_compare():

@@ -92,6 +92,7 @@ def test_rows_know_where_they_stand():
     rows = made.rows(method="b")
     assert len(rows) == 2
     assert rows.select(n_points=2).where == {"method": "b", "n_points": 2}
+    assert rows.last["n_points"] == 2
     value = rows.column("value")
     assert (value.table, value.column, value.where) == ("t", "value", {"method": "b"})
     assert (list(value), value.min(), value.max(), len(value)) == ([1 / 7, 2 / 7], 1 / 7, 2 / 7, 2)
