@@ -2,10 +2,11 @@
 
 import math
 
+from lepp import METHODS
 from reports.bench_page.tables import tables_of
 from reports.page.assets import ICON, environment, static
 from study.run.benchmark import Benchmark, compared
-from study.text.numbers import count, show
+from study.text.numbers import count, listed, show
 
 
 def render(made: Benchmark, before: Benchmark | None = None) -> str:
@@ -28,22 +29,26 @@ def render(made: Benchmark, before: Benchmark | None = None) -> str:
             comparison="" if before is None else _comparison(made, before),
             tables=list(tables_of(made, before)),
             versions=_versions(made, before),
-            versions_headings=["", "Here"] if before is None else ["", "Here", "Before"],
+            versions_headings=["", "Version", "Version before"][: 2 if before is None else 3],
         )
     )
 
 
 def _lede(made: Benchmark) -> str:
+    """Say the ratio for the largest set that SciPy was given, and what the largest run cost."""
     frame = made.measurements
-    ratios = frame[frame["quantity"] == "times_scipy"]["value"]
+    ratios = frame[frame["quantity"] == "times_scipy"]
+    ratios = ratios[ratios["n_points"] == ratios["n_points"].max()]
+    each = [
+        f"{show(row.value, 'fixed1')} times as long as {METHODS[row.method].word}"
+        for row in ratios.itertuples()
+    ]
     overhead = frame[frame["quantity"] == "overhead"].iloc[-1]
-    cores = int(overhead["cores"])
+    where = "one core" if overhead["cores"] == 1 else f"{overhead['cores']} cores"
     return (
-        "Triangulating and measuring paths together is "
-        f"{show(ratios.min(), 'fixed1')} to {show(ratios.max(), 'fixed1')} times as fast as "
-        f"SciPy's Delaunay triangulation alone. A run of {overhead['n_points']:,} points on "
-        f"{'one core' if cores == 1 else f'{cores} cores'} takes "
-        f"{show(overhead['value'], 'percent1')} longer than its tasks."
+        f"SciPy's Delaunay triangulation of {ratios['n_points'].iloc[0]:,} points takes "
+        f"{listed(each)} here, path sizes included. A run of {overhead['n_points']:,} points on "
+        f"{where} takes {show(overhead['value'], 'percent1')} longer than its tasks."
     )
 
 

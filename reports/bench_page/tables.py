@@ -37,7 +37,7 @@ def tables_of(made: Benchmark, before: Benchmark | None) -> Iterator[QuantityTab
     """Yield the tables of a benchmark in the order of `QUANTITIES`."""
     frame = made.measurements if before is None else compared(made, before)
     for name, quantity in QUANTITIES.items():
-        rows = frame[frame["quantity"] == name]
+        rows = frame[frame["quantity"] == name].sort_values("method", key=_place, kind="stable")
         if len(rows):
             yield _table(name, quantity, rows)
 
@@ -51,6 +51,10 @@ def _table(name: str, quantity: Quantity, rows: pd.DataFrame) -> QuantityTable:
         columns["Times as good"] = [show(value, "fixed2") for value in rows["gain"]]
     cells = [list(row) for row in zip(*columns.values(), strict=True)]
     return QuantityTable(name, quantity, list(columns), cells)
+
+
+def _place(methods: pd.Series) -> pd.Series:
+    return methods.map({method: place for place, method in enumerate(("", *METHODS))})
 
 
 def _key(value: object) -> str:

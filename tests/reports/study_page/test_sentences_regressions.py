@@ -1,6 +1,7 @@
 """What the report says of models and limits, on runs whose truth is known."""
 
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -9,9 +10,15 @@ from grown_runs import CURVES, grown
 from made_runs import DESIGN, drawn, page, page_text, run
 from statsmodels.regression.linear_model import OLS
 
+from reports.study_page.sections.limit import trend_sentence
 from reports.study_page.sections.regressions import _heights
 from study.analysis import limits, model_scores, regressions
 from study.analysis.limits import EDGE_LIMITS, LIMIT_VERDICTS
+
+
+def test_of_sizes_without_repetitions_no_trend_is_said():
+    evidence = SimpleNamespace(one=lambda *_, **__: None, rows=lambda *_: range(3))
+    assert trend_sentence(evidence, None) is None
 
 
 def whole(text, table, **where):

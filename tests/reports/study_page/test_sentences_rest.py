@@ -212,6 +212,12 @@ def test_all_independent_numbers_together(verdict, words):
     assert "beyond 2; 9 are." in told_with(kept, "scoreboard", reproduction_overall=frame)
 
 
+def test_a_shift_beyond_all_doubles_has_a_p_below_the_least():
+    rows = pd.DataFrame({"quantity": ["mean LEPP"], "shift": [-99.0], "shift_p": [0.0]})
+    said = agreement._shifts(rows).replace("\u00a0", " ")
+    assert "the mean LEPP size −99.00 (p < 10⁻³⁰⁷)" in said
+
+
 def test_a_common_shift_is_said():
     none = paper_run().prose("scoreboard")
     assert "Over all groups no kind of number is shifted to one side by more than chance" in none
