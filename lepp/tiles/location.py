@@ -6,16 +6,10 @@ import numpy as np
 
 from lepp.geometry.predicates import orient
 from lepp.jit import inner, kernel
-from lepp.jit.memory import for_kernels, in_one_block
+from lepp.jit.memory import for_kernels
 from lepp.tiles.coarse import CoarseMesh
 from lepp.triangulate.plain.hull import hull_roots
-from lepp.triangulate.plain.subdivision import (
-    Lists,
-    bounds,
-    gather,
-    partition,
-    partition_beside,
-)
+from lepp.triangulate.plain.subdivision import listed, partition, partition_beside
 
 #: A point in a tile: coordinates, and its number in the block; the complement (~) of that where it
 #: lies on a side. Such a point is in the tiles on both sides.
@@ -68,10 +62,7 @@ def locate(coarse: CoarseMesh, points: np.ndarray, first: int) -> Located:
     numbers = np.delete(np.arange(len(points)), ours - first)
     points = for_kernels(np.concatenate((coarse.points, points[numbers])), np.float64)
     places, rows, *_ = hull_roots(points)
-    starts, room = bounds(places, len(rows))
-    size = int(starts[-1]) + 3 * room
-    lists = Lists(*in_one_block((size, np.float64), (size, np.float64), (size, np.int32)))
-    gather(points, places, starts, lists)
+    starts, room, lists = listed(points, places, len(rows))
     placed = np.empty(2 * len(points), PLACED)  # on a side, a point is in two tiles
     corners = np.empty((len(coarse), 3), np.int32)
     ends = np.empty(len(coarse) + 1, np.int64)

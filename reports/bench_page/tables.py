@@ -25,12 +25,15 @@ class QuantityTable:
     headings : list of str
     rows : list of list of str
         Keys of which all rows have the same value are left out.
+    n_words : int
+        How many of the first columns are words.
     """
 
     id: str
     quantity: Quantity
     headings: list[str]
     rows: list[list[str]]
+    n_words: int
 
 
 def tables_of(made: Benchmark, before: Benchmark | None) -> Iterator[QuantityTable]:
@@ -50,7 +53,7 @@ def _table(name: str, quantity: Quantity, rows: pd.DataFrame) -> QuantityTable:
         columns["Before"] = [show(value, quantity.format) for value in rows["before"]]
         columns["Times as good"] = [show(value, "fixed2") for value in rows["gain"]]
     cells = [list(row) for row in zip(*columns.values(), strict=True)]
-    return QuantityTable(name, quantity, list(columns), cells)
+    return QuantityTable(name, quantity, list(columns), cells, int("method" in keys))
 
 
 def _place(methods: pd.Series) -> pd.Series:

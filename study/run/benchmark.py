@@ -49,28 +49,27 @@ class Quantity:
     title, unit : str
     format : str
         As for `study.text.numbers.show`.
-    better : int
-        1 where more is better, -1 where less is.
+    more_is_better : bool
     """
 
     title: str
     unit: str
     format: str
-    better: int
+    more_is_better: bool = False
 
 
 QUANTITIES = {
-    "sampling": Quantity("Drawing points", "ns a point", "fixed1", -1),
-    "checks": Quantity("Checking their randomness", "ns a point", "fixed1", -1),
-    "triangulation": Quantity("Triangulation", "ns a point", "fixed1", -1),
-    "sizes": Quantity("LEPP sizes", "ns a point", "fixed1", -1),
-    "counts": Quantity("All that a study counts of the paths", "ns a point", "fixed1", -1),
+    "sampling": Quantity("Drawing points", "ns a point", "fixed1"),
+    "checks": Quantity("Checking their randomness", "ns a point", "fixed1"),
+    "triangulation": Quantity("Triangulation", "ns a point", "fixed1"),
+    "sizes": Quantity("LEPP sizes", "ns a point", "fixed1"),
+    "counts": Quantity("All that a study counts of the paths", "ns a point", "fixed1"),
     "times_scipy": Quantity(
-        f"Triangulation and LEPP sizes: times as fast as {YARDSTICK} alone", "", "fixed1", 1
+        f"Triangulation and LEPP sizes: times as fast as {YARDSTICK} alone", "", "fixed1", True
     ),
-    "memory": Quantity("Memory of a triangulation and its paths", "bytes a point", "fixed1", -1),
-    "rate": Quantity("Points of a run, report apart", "million points a second", "fixed2", 1),
-    "overhead": Quantity("Time of that run beyond its tasks' own", "", "percent1", -1),
+    "memory": Quantity("Memory of a triangulation and its paths", "bytes a point", "fixed1"),
+    "rate": Quantity("Points of a run, report apart", "million points a second", "fixed2", True),
+    "overhead": Quantity("Time of that run beyond its tasks' own", "", "percent1"),
 }
 
 
@@ -286,7 +285,7 @@ def compared(new: Benchmark, old: Benchmark) -> pd.DataFrame:
         old.measurements.rename(columns={"value": "before"}), on=list(KEY), how="left"
     )
     ratio = both["value"] / both["before"]
-    more = both["quantity"].map({name: q.better > 0 for name, q in QUANTITIES.items()})
+    more = both["quantity"].map({name: q.more_is_better for name, q in QUANTITIES.items()})
     return both.assign(gain=np.where(more, ratio, 1 / ratio))
 
 

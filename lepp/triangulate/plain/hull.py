@@ -70,7 +70,7 @@ def hull_roots(points: np.ndarray) -> Roots:
     if opening < _FEWEST:
         return _swept(points, n)
     places = nobody_placed(n)
-    settle_by_cells(points, opening, _swept(points[:opening], 0).rows, places)
+    settle_by_cells(points, opening, _swept(points[:opening], opening).rows, places)
     left = np.flatnonzero(places.state != INSIDE).astype(np.int32)
     roots = _swept(points[left], n)
     of, beyond, repeats, state = roots.places
@@ -88,7 +88,7 @@ def _swept(points: np.ndarray, n_all: int) -> Roots:
     """
     n = len(points)
     ring, waiting = empty_ring(n), nobody_waiting(n)
-    rows, split = np.empty((2 * n, 6), np.int32), np.zeros(4 * max(n, n_all), np.int32)
+    rows, split = np.empty((2 * n, 6), np.int32), np.zeros(4 * n_all, np.int32)
     n_roots = n_edges = 0
     turn, axis = _first_turn(points)
     if turn < n:

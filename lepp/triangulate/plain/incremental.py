@@ -14,10 +14,9 @@ one-by-one insertion, triangle for triangle.
 
 import numpy as np
 
-from lepp.jit.memory import in_one_block
 from lepp.triangulate.plain.edges import link
 from lepp.triangulate.plain.hull import Roots, hull_roots
-from lepp.triangulate.plain.subdivision import Lists, Mesh, bounds, gather, subdivide
+from lepp.triangulate.plain.subdivision import Mesh, listed, subdivide
 
 
 def incremental(
@@ -55,10 +54,7 @@ def subdivided(
     """
     n = len(points)
     places, rows, n_edges, split = roots
-    starts, room = bounds(places, len(rows))
-    size = int(starts[-1]) + 3 * room  # the lists, and room behind them for three stacks of others
-    lists = Lists(*in_one_block((size, np.float64), (size, np.float64), (size, np.int32)))
-    gather(points, places, starts, lists)
+    starts, room, lists = listed(points, places, len(rows))
     mesh = Mesh(
         np.empty((2 * n, 3), np.int32),
         np.empty((2 * n, 3), np.int32),

@@ -11,8 +11,9 @@ import numpy as np
 from lepp.geometry.lengths import is_certain, rank, squared_length
 from lepp.geometry.predicates import orient, same, turn_error
 from lepp.jit import inlined, inner, kernel
+from lepp.jit.memory import in_one_block
 from lepp.triangulate.plain.edges import parts_of
-from lepp.triangulate.plain.waiting import INSIDE, ON_SIDE
+from lepp.triangulate.plain.waiting import INSIDE, ON_SIDE, Places
 
 
 class Lists(NamedTuple):
@@ -47,8 +48,25 @@ JOB = np.dtype(
 )
 
 
+def listed(points: np.ndarray, places: Places, n_roots: int) -> tuple[np.ndarray, np.int64, Lists]:
+    """List the points that are left, by root triangle.
+
+    Returns
+    -------
+    starts, room
+        As from `_bounds`.
+    lists : Lists
+        With room behind them for three stacks of others.
+    """
+    starts, room = _bounds(places, n_roots)
+    size = int(starts[-1]) + 3 * room
+    lists = Lists(*in_one_block((size, np.float64), (size, np.float64), (size, np.int32)))
+    _gather(points, places, starts, lists)
+    return starts, room, lists
+
+
 @kernel
-def bounds(places, n_roots):
+def _bounds(places, n_roots):
     """Find how many points each root triangle has.
 
     Returns
@@ -74,7 +92,7 @@ def bounds(places, n_roots):
 
 
 @kernel
-def gather(points, places, starts, lists):
+def _gather(points, places, starts, lists):
     """List the points that are left by root triangle, in the order of insertion."""
     x, y, ident = lists
     state, of, beyond = places.state, places.of, places.beyond
@@ -102,9 +120,8 @@ def subdivide(points, roots, starts, room, lists, n_edges, split, repeats, mesh)
         Vertices and half-edges.
     starts : (r + 1,) int64 ndarray
     room : int
-        Both from `bounds`.
     lists : Lists
-        From `gather`, with room for three stacks behind the lists.
+        All from `listed`.
     n_edges : int
         Number of edges so far.
     split : (4 n,) int32 ndarray
