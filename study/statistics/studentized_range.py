@@ -4,6 +4,8 @@ SciPy's integrates each value anew, seconds for the pairs of twenty groups and a
 for their intervals. Here the range of k normal values is tabulated once, for all pairs.
 """
 
+from functools import cache
+
 import numpy as np
 from scipy import interpolate, special
 from scipy.optimize import elementwise
@@ -11,7 +13,7 @@ from scipy.optimize import elementwise
 #: Beyond this range of k standard normal values its tail is below 10^-95 for any sensible k.
 _WIDEST = 30.0
 _RANGES = np.linspace(0.0, _WIDEST, 601)
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(300)
+_N_NODES = 300
 #: exp(-40) is below the resolution of the integral.
 _DECAY = 40.0
 _STEPS = 240
@@ -69,10 +71,18 @@ class _Tail:
         return np.clip(np.trapezoid(values, u, axis=0), 0.0, 1.0)
 
 
+@cache
+def _quadrature() -> tuple[np.ndarray, np.ndarray]:
+    # Of Gauss and Legendre, from a banded matrix: NumPy takes a full one, whose threads wait for
+    # each other up to a second on a machine that is busy.
+    return special.roots_legendre(_N_NODES)
+
+
 def _normal_range_tail(k: int) -> np.ndarray:
     # 1 - k int phi(z) (Phi(z) - Phi(z - w))^(k-1) dz, without the cancellation of the difference.
-    z = -9 + (_NODES + 1) * (9 + _WIDEST / 2 + 9) / 2
-    weights = _WEIGHTS * (9 + _WIDEST / 2 + 9) / 2
+    nodes, weights = _quadrature()
+    z = -9 + (nodes + 1) * (9 + _WIDEST / 2 + 9) / 2
+    weights = weights * (9 + _WIDEST / 2 + 9) / 2
     density = np.exp(-z * z / 2) / np.sqrt(2 * np.pi)
     inside = special.ndtr(z)
     outside = special.ndtr(z - _RANGES[:, None]) / inside

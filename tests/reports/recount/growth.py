@@ -156,12 +156,20 @@ def _box(power: float, x: np.ndarray) -> np.ndarray:
     return log if abs(power) < 1e-12 else np.expm1(power * log) / power
 
 
-def _line(power: float, seen: Means) -> tuple[np.ndarray, np.ndarray, float]:
-    basis = np.column_stack([np.ones(len(seen.x)), _box(power, seen.x)])
-    root = 1 / np.sqrt(seen.v)[:, None]
-    inverse = np.linalg.pinv(basis * root, rcond=1e-14)
-    beta = inverse @ (seen.y * root[:, 0])
-    return beta, inverse @ inverse.T, float((((seen.y - basis @ beta) * root[:, 0]) ** 2).sum())
+#: A power, the coefficients of its line, their covariance, and the squares that are left.
+Line = tuple[float, np.ndarray, np.ndarray, float]
+
+
+def _line(power: float, seen: Means) -> Line:
+    basis, w = _box(power, seen.x), 1 / seen.v
+    middle, y = w @ basis / w.sum(), w @ seen.y / w.sum()
+    across = basis - middle
+    spread = w * across @ across
+    slope = w * across @ (seen.y - y) / spread
+    beta = np.array([y - slope * middle, slope])
+    covariance = np.array([[1 / w.sum() + middle**2 / spread, -middle / spread],
+                           [-middle / spread, 1 / spread]])  # fmt: skip
+    return power, beta, covariance, float(w @ (seen.y - y - slope * across) ** 2)
 
 
 _COARSE = np.linspace(-10, 2, 1201)
@@ -169,10 +177,10 @@ _COARSE = np.linspace(-10, 2, 1201)
 
 def _best_power(seen: Means, low: float, high: float) -> tuple[float, float]:
     powers = _COARSE[(low - 1e-9 <= _COARSE) & (high + 1e-9 >= _COARSE)]
-    costs = [_line(p, seen)[2] for p in powers]
+    costs = [_line(p, seen)[-1] for p in powers]
     k = int(np.argmin(costs))
     found = optimize.minimize_scalar(
-        lambda p: _line(p, seen)[2],
+        lambda p: _line(p, seen)[-1],
         bounds=(powers[max(k - 1, 0)], powers[min(k + 1, len(powers) - 1)]),
         method="bounded",
         options={"xatol": 1e-9},
@@ -197,7 +205,7 @@ def predicted(model: str, seen: Means, x: float) -> float:
     at = np.array([x])
     if model in _RANGES:
         power = _best_power(seen, *_RANGES[model])[0]
-        beta = _line(power, seen)[0]
+        beta = _line(power, seen)[1]
         return float(beta[0] + beta[1] * _box(power, at)[0])
     value = float(np.column_stack(BASES[model](at))[0] @ linear(model, seen)[0])
     return float(4 * special.expit(value)) if model == "logistic" else value
@@ -315,16 +323,16 @@ def _along(model: str, seen: Means, direction: np.ndarray) -> Interval:
 
 
 @cache
-def _profile(key: tuple, part: str) -> tuple[float, float, list, float, Means]:
+def _profile(key: tuple, part: str) -> tuple[float, float, list[Line], float, Means]:
     """Best power, ceiling of the squares, and the lines of all powers below it."""
     seen = means(*key, part)
     best, least = _best_power(seen, -10, 2)
     ceiling = least + t95(seen.df) ** 2
-    coarse = [p for p in _COARSE if _line(p, seen)[2] <= ceiling] or [best]
+    coarse = [p for p in _COARSE if _line(p, seen)[-1] <= ceiling] or [best]
     low, high = max(coarse[0] - 0.01, -10), min(coarse[-1] + 0.01, 2)
     powers = np.union1d(np.linspace(low, high, 6001), [best, 0.0])
-    lines = [(p, *_line(p, seen)) for p in powers if low <= p <= high]
-    return best, ceiling, [line for line in lines if line[3] <= ceiling], least, seen
+    lines = [_line(p, seen) for p in powers if low <= p <= high]
+    return best, ceiling, [line for line in lines if line[-1] <= ceiling], least, seen
 
 
 def power_interval(key: tuple, part: str) -> tuple[float, float]:
@@ -338,29 +346,31 @@ def power_value(key: tuple, part: str, x: float) -> Interval:
     """Value at x, or the limit, with its profile likelihood interval over all powers."""
     best, ceiling, lines, _, seen = _profile(key, part)
 
-    def end(power: float, side: int) -> float:
-        beta, covariance, cost = _line(power, seen)
+    def end(line: Line, side: int) -> float:
+        power, beta, covariance, cost = line
         at = np.array([1.0, -1 / power if np.isinf(x) else _box(power, np.array([x]))[0]])
         left = max(ceiling - cost, 0.0)
         return float(at @ beta + side * np.sqrt(left * (at @ covariance @ at)))
 
-    powers = [line[0] for line in lines if line[0] < 0 or not np.isinf(x)]
+    lines = [line for line in lines if line[0] < 0 or not np.isinf(x)]
     ends = []
     for side in (-1, 1):
-        values = [side * end(power, side) for power in powers]
+        values = [side * end(line, side) for line in lines]
         k = int(np.argmax(values))
-        between = powers[max(k - 1, 0)], powers[min(k + 1, len(powers) - 1)]
+        between = lines[max(k - 1, 0)][0], lines[min(k + 1, len(lines) - 1)][0]
         nearer = optimize.minimize_scalar(
-            lambda power, side=side: -side * end(power, side), bounds=between, method="bounded"
+            lambda power, side=side: -side * end(_line(power, seen), side),
+            bounds=between,
+            method="bounded",
         )
         ends.append(side * max(values[k], -float(nearer.fun)))
     low, high = ends
-    beta, covariance, cost = _line(0.0, seen)
+    _, beta, covariance, cost = _line(0.0, seen)
     if np.isinf(x) and cost <= ceiling:
         half = np.sqrt((ceiling - cost) * covariance[1, 1])
         low = -np.inf if beta[1] - half < 0 else low
         high = np.inf if beta[1] + half > 0 else high
-    return end(best, 0), low, high
+    return end(_line(best, seen), 0), low, high
 
 
 def value_interval(model: str, key: tuple, part: str, x: float) -> Interval:

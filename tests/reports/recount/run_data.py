@@ -78,9 +78,10 @@ def log10_chi2_tail(x: float, df: float) -> float:
 
 def holm(p: np.ndarray) -> np.ndarray:
     """Holm's adjusted p-values."""
-    from statsmodels.stats.multitest import multipletests
-
-    return np.asarray(multipletests(p, method="holm")[1])
+    order = np.argsort(p)
+    adjusted = np.empty(len(p))
+    adjusted[order] = np.maximum.accumulate(np.arange(len(p), 0, -1) * np.asarray(p)[order])
+    return np.minimum(adjusted, 1.0)
 
 
 @dataclass(frozen=True)
