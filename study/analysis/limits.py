@@ -9,6 +9,7 @@ from study.analysis.trends import JUDGED_NOTE, STRUCK_OUT_NOTE, Trend, free_of_e
 from study.statistics.edge_limit import edge_limit
 from study.statistics.groups import Groups, NotEnough
 from study.statistics.limit_verdict import (
+    BOUNDED,
     CONTRADICTION,
     GROWTH,
     LEVEL,
@@ -37,6 +38,7 @@ FEW = "the run has too few sizes"
 REASONS = {
     LEVEL: "the mean is level",
     LIMIT: "only models with a limit survive",
+    BOUNDED: "it falls, and cannot fall below 1",
     GROWTH: "it grows like a logarithm or faster",
     ROUGH: "no change is seen, but one that counts is not excluded",
     SEVERAL: "models with and without a limit survive",
@@ -45,8 +47,8 @@ REASONS = {
 }
 #: Why there is one verdict for both parts.
 ONE_LIMIT = (
-    "The whole mesh and its interior must have one limit, because the edge's share of the "
-    "triangles tends to 0"
+    "The whole mesh and its interior have one limit, as long as the edge's share of the triangles "
+    "falls faster than its mean grows"
 )
 
 LIMIT_VERDICTS = Declaration(
@@ -94,11 +96,14 @@ LIMIT_EVIDENCE = Declaration(
     ),
     note=f"{JUDGED_NOTE} A model is out if lack of fit or sizes not seen refute it with p below "
     f"{REFUTED_BELOW} divided by the number of trends judged; if {STRUCK_OUT_NOTE}; or if its AIC "
-    f"is {CLEAR_AIC:g} above that of one that is neither. Yes: a constant survives and the change "
+    f"is {CLEAR_AIC:g} above that of one that is neither; none is refuted while one that it "
+    "contains is not. Yes: a constant survives and the change "
     f"with each tenfold number of points is surely no more than {LEVEL_PER_DECADE:g}; or a model "
     "with a limit survives and every one without is out, where the power model c + a x^q counts "
     f"as one only if surely q < {NEARLY_LOGARITHMIC:g}, for a q nearer to 0 follows ln ln n or the "
-    "root of ln n, which have no limit, too well. No: growth without limit survives, edge models "
+    "root of ln n, which have no limit, too well; or the mean surely falls, for what falls without "
+    "end comes below 1, the size of the shortest path: the limit is then below the mean of the "
+    "largest size, by how much is open. No: growth without limit survives, edge models "
     f"are out, and q is surely above {NEARLY_LOGARITHMIC:g}: no limit is in sight, as far as the "
     "data reach. Undecided otherwise. Surely means with all of the profile likelihood interval; an "
     "empty end says that the data set none. The powers are those of q. The limit is that of the "
@@ -177,7 +182,7 @@ def _interval(name: str, interval: ProfileInterval | None) -> Row:
     if interval is None:
         return {}
     return {
-        name: interval.estimate,
+        name: end(interval.estimate),
         f"{name}_low": end(interval.low),
         f"{name}_high": end(interval.high),
     }

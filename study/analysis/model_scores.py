@@ -10,7 +10,6 @@ from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Declara
 from study.analysis.trends import JUDGED_NOTE, PUBLISHED_UP_TO, STRUCK_OUT_NOTE, Trend, trends
 from study.statistics.limit_verdict import Candidate, survivors_of
 from study.statistics.model_scores import predictions, value_interval
-from study.statistics.models import SATURATING, LinearModel
 from study.statistics.power_family import ProfileInterval
 from study.statistics.thresholds import CLEAR_AIC, LEVEL, REFUTED_BELOW
 from study.statistics.verdicts import NO, YES
@@ -53,10 +52,13 @@ MODEL_SCORES = Declaration(
     "prediction counts the errors of the means and, with all covariances, those of the fit; it and "
     "the p of all sizes are of F, with the degrees of freedom of the pure error. Refuted: one p "
     f"below {REFUTED_BELOW} divided by the number of trends that this run judges, those of every "
-    f"distribution, triangulation and part (Bonferroni). Struck out: {STRUCK_OUT_NOTE}. Behind: "
+    f"distribution, triangulation and part (Bonferroni), unless a model that it contains with "
+    f"fewer coefficients stands. Struck out: {STRUCK_OUT_NOTE}. Behind: "
     f"the AIC of the fit to all sizes is more than {CLEAR_AIC:g} above that of a model that is "
     "neither. The logistic model's limit of 4 is supposed, and a parabola turns round: these two "
-    "say nothing of a limit, and have a dash for it. The constant is the others with no slope.",
+    "say nothing of a limit, and have a dash for it. The constant is the others with no slope; of "
+    "the two powers, growing and saturating, one fits best at its end, as the logarithm: it is no "
+    "model of its own, and has no row.",
 )
 
 PREDICTIONS = Declaration(
@@ -159,8 +161,6 @@ def _projections(trend: Trend) -> Iterator[Row]:
     for one in survivors_of(trend.candidates):
         if one.model.has_limit is None:
             continue  # what it supposes or cannot follow far away
-        if not isinstance(one.model, LinearModel) and one.model is not SATURATING:
-            continue  # the saturating model's intervals have all powers
         for n in _FAR:
             if n > trend.means.n_points[-1]:
                 found: ProfileInterval = value_interval(one.model, trend.means, n / 1000)

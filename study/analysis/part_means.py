@@ -81,10 +81,11 @@ LONGEST_PATHS = Declaration(
         Column("edge_share", "Share from the edge", "", "percent2"),
         Column("edge_triangles", "Share of triangles at the edge", "", "percent2"),
         Column("layer", "Commonest layer", "", "int"),
+        Column("layer_paths", "Paths from that layer", "triangles", "int"),
     ),
     note=f"{INTERIOR_NOTE} The edge is all other triangles. All triangulations of the largest "
     "number of points together. The commonest layer is that of the edge in which most of these "
-    f"paths start, or {INTERIOR_LAYER} if more start in the interior.",
+    f"paths start, the first of several, or {INTERIOR_LAYER} if more start in the interior.",
 )
 
 COMMON_MEANS = Declaration(
@@ -213,6 +214,7 @@ def longest_paths(one: Population) -> Iterator[Row]:
             "edge_share": 1 - inside[size] / total[size],
             "edge_triangles": 1 - inside.iloc[0] / total.iloc[0],
             "layer": int(at_least.loc[size].idxmax()),
+            "layer_paths": int(at_least.loc[size].max()),
         }
 
 

@@ -23,6 +23,7 @@ from study.analysis.distribution_comparison import (
 from study.analysis.group_assumptions import CENTERS, LEVENE, SHAPIRO
 from study.analysis.group_summaries import GROUPS
 from study.analysis.limits import FEW, LIMIT_VERDICTS
+from study.analysis.model_scores import BEHIND, MODEL_SCORES, REFUTED, STRUCK_OUT, SURVIVES
 from study.analysis.parts import INTERIOR, WHOLE
 from study.analysis.path_lengths import CONSTANT, CONTINUATION, PATH_LAWS
 from study.analysis.regressions import LEAST_SQUARES, REGRESSIONS
@@ -38,7 +39,7 @@ from study.analysis.table import (
 from study.analysis.theorems import LEAST_MEAN, MEAN, MOST_MEAN, MOST_SD, THEOREM_1, THEOREM_2
 from study.analysis.variance_analysis import ANOVA, CLASSICAL, ETA_SQUARED
 from study.statistics.groups import NotEnough
-from study.statistics.models import LINEAR_MODELS, LOGARITHMIC
+from study.statistics.models import LINEAR_MODELS, LOGARITHMIC, LOGISTIC
 from study.statistics.thresholds import LEVEL, ROUGH_RATE, SIGNIFICANCE
 from study.statistics.verdicts import (
     NO,
@@ -277,18 +278,35 @@ def _compared(row: pd.Series) -> list[str]:
     ]
 
 
+#: What becomes of a model, as of one that a sentence is about.
+_STANDING = {
+    SURVIVES: "survives",
+    BEHIND: "fits far worse than others",
+    REFUTED: "is refuted",
+    STRUCK_OUT: "has another limit than the interior",
+}
+
+
 def _limit(of: _Tables) -> Judged:
     row = of.rows(LIMIT_VERDICTS).first
     if row["reason"] == FEW:
         raise NotEnough(FEW)
-    if row["has_limit"] != YES or pd.isna(row["limit"]):
-        return UNDECIDED, f"whether the mean has a limit: {row['has_limit']} ({row['reason']})"
+    logistic = of.rows(MODEL_SCORES, part=WHOLE, model=LOGISTIC.name).first["standing"]
+    model = f"; the logistic model {_STANDING[logistic]}"
+    if row["has_limit"] != YES:
+        found = f"whether the mean has a limit: {row['has_limit']} ({row['reason']})"
+        return UNDECIDED, found + model
     low, high = row["limit_low"], row["limit_high"]
     excluded = high < LOGISTIC_LIMIT or low > LOGISTIC_LIMIT
-    return NO if excluded else NOT_REJECTED, (
-        f"the mean has a limit ({row['reason']}): {show(row['limit'], 'fixed4')} "
-        f"({LEVEL} interval {show(low, 'fixed4')} to {show(high, 'fixed4')})"
-    )
+    if pd.isna(row["limit"]):
+        where = f"below {show(high, 'fixed4')}"
+    else:
+        where = (
+            f"{show(row['limit'], 'fixed4')} ({LEVEL} interval {show(low, 'fixed4')} to "
+            f"{show(high, 'fixed4')})"
+        )
+    found = f"the mean has a limit ({row['reason']}): {where}"
+    return NO if excluded else NOT_REJECTED, found + model
 
 
 #: Source, statement, and how it is answered from the tables of one method and distribution.
@@ -369,7 +387,7 @@ _ASKED: tuple[tuple[str, str, Callable[[_Tables], Judged]], ...] = (
     STATEMENTS,
     needs=(
         GROUPS, LEVENE, SHAPIRO, ANOVA, BOUNDS, REGRESSIONS, CONTINUATION, PATH_LAWS, THEOREM_1,
-        THEOREM_2, ANALOGOUS, LIMIT_VERDICTS,
+        THEOREM_2, ANALOGOUS, LIMIT_VERDICTS, MODEL_SCORES,
     ),
 )  # fmt: skip
 def statements(study: Study) -> Iterator[Row]:

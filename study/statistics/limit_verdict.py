@@ -9,24 +9,29 @@ those that are not, some have a limit and some have none. What then is said:
   c - a x^(-b) counts as one only if all of the profile interval of the power lambda = -b is below
   `NEARLY_LOGARITHMIC`: for b -> 0 it is the logarithm, and with a small b it follows ln ln n or
   (ln n)^(1/2) as far as anyone can compute, neither of which has a limit;
+- *yes*, if the mean surely falls, and any of these models survives: what falls without end comes
+  below 1, and no mean of sizes of paths does. Where the limit is stays open downwards;
 - *no*, if a growth without limit survives, both edge models are out, and all of the interval of
   lambda is above `NEARLY_LOGARITHMIC`. No limit is then in sight; that there is none at all, no
   finite data can say;
 - *undecided* otherwise.
 
 A model is out if it is refuted, if it has another limit than a level mean that must have the same,
-or if its AIC is `CLEAR_AIC` above that of one that is neither.
+or if its AIC is `CLEAR_AIC` above that of one that is neither. None is refuted while one that it
+contains is not: they differ in degrees of freedom alone. A power model that is best as the
+logarithm, at the end of its powers, is none of its own.
 
 The whole mesh and its interior must have one limit: the edge's share of the triangles tends to 0.
 `combined` is the verdict of both.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from study.statistics.groups import NotEnough
+from study.statistics.intervals import t_quantile
 from study.statistics.model_scores import (
     Score,
     coefficient_interval,
@@ -57,7 +62,7 @@ from study.statistics.verdicts import NO, UNDECIDED, YES
 LEAST_SIZES, LEAST_FITTED = 5, 4
 
 #: What decides.
-LEVEL, LIMIT, GROWTH = "level", "limit", "growth"
+LEVEL, LIMIT, BOUNDED, GROWTH = "level", "limit", "bounded", "growth"
 ROUGH, SEVERAL, NONE_FITS = "rough", "several", "none fits"
 #: What else may decide of two parts that must have one limit.
 CONTRADICTION = "contradiction"
@@ -77,6 +82,8 @@ class Candidate:
         The p of either score below which the model is refuted.
     struck_out : bool
         Whether its limit is not that of a level mean that must have the same.
+    contains_one_that_stands : bool
+        Whether a model that it contains is not refuted.
     """
 
     model: Model
@@ -85,11 +92,13 @@ class Candidate:
     aic: float
     refuted_below: float = REFUTED_BELOW
     struck_out: bool = False
+    contains_one_that_stands: bool = False
 
     @property
     def refuted(self) -> bool:
-        """By either score."""
-        return min(self.fit.p, self.prediction.p) < self.refuted_below
+        """By either score, and with all models that it contains."""
+        low = min(self.fit.p, self.prediction.p) < self.refuted_below
+        return low and not self.contains_one_that_stands
 
 
 @dataclass(frozen=True)
@@ -101,8 +110,9 @@ class LimitVerdict:
     verdict : str
         YES, NO or UNDECIDED of `study.statistics.verdicts`.
     reason : str
-        For yes LEVEL or LIMIT, for no GROWTH; else ROUGH (no change is seen, but one that counts is
-        not excluded), SEVERAL (models with and without a limit survive) or NONE_FITS.
+        For yes LEVEL, LIMIT or BOUNDED, for no GROWTH; else ROUGH (no change is seen, but one
+        that counts is not excluded), SEVERAL (models with and without a limit survive) or
+        NONE_FITS.
     survivors : tuple of Candidate
         All that are not out, the lowest AIC first.
     power : ProfileInterval
@@ -110,8 +120,9 @@ class LimitVerdict:
     per_decade : ProfileInterval
         Change of the mean with each tenfold number of points, by the logarithm.
     limit : ProfileInterval or None
-        Of the surviving model of the lowest AIC that has one, if the verdict is yes; its ends are
-        the furthest that any surviving model with a limit has.
+        If the verdict is yes. Of the surviving model of the lowest AIC that has one; its ends are
+        the furthest that any surviving model with a limit has. For BOUNDED only its upper end is
+        known: that of the mean of the largest size.
     """
 
     verdict: str
@@ -160,8 +171,8 @@ def candidates(
     level : ProfileInterval, optional
         `level_mean` of a part that must have the same limit.
     """
-    scored = []
-    for model in MODELS:
+    scored: list[Candidate] = []
+    for model in _models_of_their_own(means):
         try:
             fit = lack_of_fit(model, means)
             prediction = prediction_score(model, means, fitted)
@@ -169,7 +180,8 @@ def candidates(
             continue
         aic = fit.chi_squared + 2 * len(model.terms)
         struck_out = level is not None and _has_another_limit(model, means, level)
-        scored.append(Candidate(model, fit, prediction, aic, refuted_below, struck_out))
+        stands = any(one.model.name in model.contains and not one.refuted for one in scored)
+        scored.append(Candidate(model, fit, prediction, aic, refuted_below, struck_out, stands))
     return tuple(scored)
 
 
@@ -223,12 +235,12 @@ def combined(whole: LimitVerdict | None, interior: LimitVerdict | None) -> OneLi
     OneLimit
         Yes or no if one part says so, and the other does not say the opposite; no two limits may
         exclude each other. The limit that is stated is the interior's where it is level, else that
-        of the whole.
+        of the whole, if it is known on both sides.
     """
     parts = [part for part in (whole, interior) if part is not None]
     of_limits = sorted(
         (part for part in parts if part.verdict == YES),
-        key=lambda part: part.reason != LEVEL or part is not interior,
+        key=lambda part: (part.reason != LEVEL or part is not interior, part.reason == BOUNDED),
     )
     growing = tuple(part for part in parts if part.verdict == NO)
     limits = [part.limit for part in of_limits if part.limit is not None]
@@ -297,15 +309,20 @@ def _verdict(
     saturates = SATURATING.name in names and family.power.high < NEARLY_LOGARITHMIC
     if not grows and (edge or saturates):
         return YES, LIMIT
+    some = any(one.model.has_limit is not None for one in survivors)
+    if some and decade.high < 0:
+        return YES, BOUNDED
     if grows and not edge and family.power.low > NEARLY_LOGARITHMIC:
         return NO, GROWTH
-    some = any(one.model.has_limit is not None for one in survivors)
     return UNDECIDED, SEVERAL if some else NONE_FITS
 
 
 def _limit(means: SizeMeans, survivors: tuple[Candidate, ...], reason: str) -> ProfileInterval:
     if reason == LEVEL:
         return limit_of(CONSTANT, means)
+    if reason == BOUNDED:
+        half = t_quantile(means.df) * float(np.sqrt(means.variances[-1]))
+        return ProfileInterval(np.nan, -np.inf, float(means.means[-1]) + half)
     with_limit = [one.model for one in survivors if one.model in (*EDGE_MODELS, SATURATING)]
     limits = []
     for model in with_limit:
@@ -316,6 +333,16 @@ def _limit(means: SizeMeans, survivors: tuple[Candidate, ...], reason: str) -> P
     return ProfileInterval(
         limits[0].estimate, min(one.low for one in limits), max(one.high for one in limits)
     )
+
+
+def _models_of_their_own(means: SizeMeans) -> Iterator[Model]:
+    try:
+        power, _ = PowerFamily(means).best()
+    except NotEnough:  # nor for a model with a power
+        power = 0.0
+    for model in MODELS:
+        if isinstance(model, LinearModel) or model.powers[0] < power < model.powers[1]:
+            yield model
 
 
 def _has_another_limit(model: Model, means: SizeMeans, level: ProfileInterval) -> bool:

@@ -49,6 +49,8 @@ class LinearModel:
     has_limit : bool or None
         Whether y tends to the first coefficient, or away without bound; None where the model says
         nothing of it.
+    contains : tuple of str
+        Names of the models that are this one with some coefficients fixed.
     """
 
     name: str
@@ -58,6 +60,7 @@ class LinearModel:
     transform: Function = identity
     inverse: Function = identity
     has_limit: bool | None = None
+    contains: tuple[str, ...] = ("constant",)
 
 
 LINEAR_MODELS = (
@@ -73,6 +76,7 @@ LINEAR_MODELS = (
         "a + b x + c x^2",
         ("a", "b", "c"),
         lambda x: np.column_stack([np.ones_like(x), x, x * x]),
+        contains=("constant", "linear"),
     ),
     LinearModel(
         "logistic",
@@ -92,7 +96,9 @@ LINEAR_MODELS = (
 )
 LINEAR, QUADRATIC, LOGISTIC, LOGARITHMIC = LINEAR_MODELS
 
-CONSTANT = LinearModel("constant", "c", ("c",), lambda x: np.ones((len(x), 1)), has_limit=True)
+CONSTANT = LinearModel(
+    "constant", "c", ("c",), lambda x: np.ones((len(x), 1)), has_limit=True, contains=()
+)
 #: Slower than every power of the logarithm, and yet without limit.
 DOUBLY_LOGARITHMIC = LinearModel(
     "doubly logarithmic",
@@ -116,6 +122,7 @@ THICKENING_EDGE = LinearModel(
     ("c", "b", "d"),
     lambda x: np.column_stack([np.ones_like(x), x**-0.5, np.log(x) * x**-0.5]),
     has_limit=True,
+    contains=("constant", "edge"),
 )
 EDGE_MODELS = (EDGE, THICKENING_EDGE)
 
@@ -128,6 +135,7 @@ class SaturatingModel:
     formula: str = "c - a x^(-b)"
     terms: tuple[str, ...] = ("c", "a", "b")
     has_limit: bool = True
+    contains: tuple[str, ...] = ("constant", "logarithmic", "edge")
     #: Of x; its end 0 is the logarithm.
     powers: tuple[float, float] = (-np.inf, 0.0)
 
@@ -152,6 +160,7 @@ class GrowingModel:
     formula: str = "c + a x^b"
     terms: tuple[str, ...] = ("c", "a", "b")
     has_limit: bool = False
+    contains: tuple[str, ...] = ("constant", "linear", "logarithmic")
     powers: tuple[float, float] = (0.0, np.inf)
 
 

@@ -25,6 +25,7 @@ CURVES: dict[str, Curve] = {
     "thickening": lambda x: 3.4765 + (0.2 + 0.05 * np.log(x)) * x**-0.5,
     "level": lambda x: 3.4765 + 0 * x,
     "off": lambda x: 3.4965 + 0 * x,
+    "halfway": lambda x: 3 + 0.0025 * np.log(x),
     "wave": lambda x: 3 + 0.03 * np.sin(2 * np.log(x)),
     "slow": lambda x: 2.9 + 0.06 * np.log(np.log(1000 * x)),
 }

@@ -11,6 +11,7 @@ from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View, distribution_name, distribution_word
 from reports.text.words import LEVEL
+from study.analysis.part_changes import LAST_LAYERS, LAST_LAYERS_ARE, PART_CHANGES
 from study.analysis.part_means import (
     ABOVE,
     BELOW,
@@ -21,6 +22,7 @@ from study.analysis.part_means import (
 )
 from study.analysis.parts import INTERIOR, WHOLE
 from study.analysis.table import Rows
+from study.statistics.thresholds import SIGNIFICANCE
 from study.statistics.verdicts import REJECTED
 from study.text.numbers import count, listed, none_or, p_is, show
 
@@ -28,9 +30,7 @@ from study.text.numbers import count, listed, none_or, p_is, show
 _LONG = 100
 _DEFINITION = (
     f"The interior is all triangles that are {INTERIOR_LAYER} or more steps across edges away from "
-    "a triangle at the hull; the edge is all others. It starts there by measurement: at 10⁷ "
-    "uniform points the means of layers 20 to 23 of Delaunay meshes still are 3.55 to 3.50, and "
-    "from layer 24 on those of the inside, 3.4764."
+    "a triangle at the hull; the edge is all others."
 )
 
 
@@ -47,6 +47,7 @@ def section(evidence: Evidence) -> Section:
                 (
                     Prose(per_view(evidence.views, lambda view: _parts(evidence, view))),
                     _figure_parts(evidence),
+                    TableBlock(PART_CHANGES, "How both means change", folded=True),
                     TableBlock(
                         COMMON_MEANS,
                         "Whether the distributions have one mean",
@@ -70,6 +71,7 @@ def section(evidence: Evidence) -> Section:
                 (
                     Prose(per_view(evidence.views, lambda view: _layers(evidence, view))),
                     _figure_layers(evidence),
+                    TableBlock(LAST_LAYERS, "The last layers and the interior", folded=True),
                 ),
             ),
             Subsection(
@@ -108,9 +110,66 @@ def _parts(evidence: Evidence, view: View) -> list[str] | None:
             f"{show(change[1], 'fixed4')}, from {show(first['mean_lepp'], 'fixed4')} to "
             f"{show(last['mean_lepp'], 'fixed4')}."
         )
+        whose = _whose_change(evidence, view)
+        if whose:
+            sentences.append(f"{whose[0].upper()}{whose[1:]}.")
     paragraphs = [" ".join(sentences)]
     one = _one_mean(evidence, view)
     return [*paragraphs, one] if one else paragraphs
+
+
+def _whose_change(evidence: Evidence, view: View) -> str | None:
+    """Say whether the change of the mean is the edge's, as a clause; None if none is shown."""
+    whole = evidence.one(PART_CHANGES, view, part=WHOLE)
+    interior = evidence.one(PART_CHANGES, view, part=INTERIOR)
+    if whole is None or interior is None or whole["p"] >= SIGNIFICANCE:
+        return None
+    # As shares of the change of the whole mesh, whichever its direction.
+    low, high = sorted((interior["low"] / whole["change"], interior["high"] / whole["change"]))
+    word = "growth" if whole["change"] > 0 else "fall"
+    if high < 0.5:
+        return f"most of the {word} of the whole mesh is the edge's"
+    if low > 0.5:
+        return f"most of the {word} of the whole mesh is the interior's own"
+    return f"how much of the {word} of the whole mesh is the edge's stays open"
+
+
+def edge_in_short(evidence: Evidence, view: View) -> str | None:
+    """Say how the mean changes in the interior, and whose the change of the whole mesh is."""
+    whose = _whose_change(evidence, view)
+    row = evidence.one(PART_CHANGES, view, part=INTERIOR)
+    if whose is None or row is None:
+        return None
+    return (
+        f"In the interior, {INTERIOR_LAYER} steps or more from the hull, it changes by "
+        f"{show(row['change'], 'fixed4')} ({LEVEL} from {show(row['low'], 'fixed4')} to "
+        f"{show(row['high'], 'fixed4')}) from {row['from_points']:,} points to "
+        f"{row['to_points']:,}: {whose}."
+    )
+
+
+def _reach(evidence: Evidence, view: View) -> str | None:
+    """Say whether the last layers before the interior still have the edge in them."""
+    row = evidence.one(LAST_LAYERS, view)
+    if row is None:
+        return None
+    layers = f"{LAST_LAYERS_ARE[0]} to {LAST_LAYERS_ARE[-1]}"
+    opening = (
+        f"Layers {layers}, the last before the interior, have a mean of "
+        f"{show(row['last_layers'], 'fixed4')} together"
+    )
+    interval = f"{LEVEL} from {show(row['low'], 'fixed4')} to {show(row['high'], 'fixed4')}"
+    off = show(row["difference"], "fixed4")
+    if row["same_mean"] == REJECTED:
+        return (
+            f"{opening}, that of the interior and {off} ({interval}; {p_is(row['log10_p'])}): of "
+            f"{view.distribution_word} points the edge, or what the density of the points has to "
+            "do with it, reaches further, and some of it is in what is called the interior here."
+        )
+    return (
+        f"{opening}, which is not shown to differ from that of the interior (by {off}, "
+        f"{interval}): no reach of the edge beyond them is seen."
+    )
 
 
 def _one_mean(evidence: Evidence, view: View) -> str | None:
@@ -257,7 +316,8 @@ def _layers(evidence: Evidence, view: View) -> list[str] | None:
     where = f"is {' and '.join(words)}" if words else "is not shown to differ from it in any layer"
     return [
         f"{sentence} The mean of the interior is {inside}; by tests of all layers, with Holm's "
-        f"correction, that of the edge {where}."
+        f"correction, that of the edge {where}.",
+        *([reach] if (reach := _reach(evidence, view)) else []),
     ]
 
 
@@ -346,17 +406,22 @@ def _longest(evidence: Evidence, view: View) -> list[str] | None:
             f"triangles, {show(long['edge_triangles'], 'percent2')}, "
             f"{show(_by_share(long), 'fixed1')} would."
         )
-    where = (
-        "in the interior" if last["layer"] == INTERIOR_LAYER else f"in layer {last['layer']}"
-    )  # fmt: skip
-    all_inside = last["interior_paths"] == last["paths"]
-    start = "all start" if all_inside else "most start"
     longest = count(last["paths"], "path has", "paths have")
     sentences.append(
         f"At this number of points {longest} the largest size of all, {last['lepp_size']}, and "
-        f"{'starts' if last['paths'] == 1 else start} {where}."
+        f"{_where_they_start(last)}."
     )
     return [" ".join(sentences)]
+
+
+def _where_they_start(row: pd.Series) -> str:
+    paths, inside, layer = row["paths"], row["interior_paths"], row["layer"]
+    where = "in the interior" if layer == INTERIOR_LAYER else f"in layer {layer}"
+    if paths == 1:
+        return f"starts {where}"
+    if row["layer_paths"] > paths / 2:
+        return f"{'all' if row['layer_paths'] == paths else 'most'} start {where}"
+    return f"{none_or(inside)} of them {'starts' if inside < 2 else 'start'} in the interior"
 
 
 def _many(evidence: Evidence, view: View) -> pd.DataFrame:

@@ -19,7 +19,7 @@ from study.analysis.limits import (
 from study.analysis.model_scores import MODEL_SCORES, SURVIVES
 from study.analysis.parts import INTERIOR, WHOLE
 from study.analysis.variance_analysis import ANOVA, WELCH
-from study.statistics.limit_verdict import CONTRADICTION, NONE_FITS, ROUGH
+from study.statistics.limit_verdict import BOUNDED, CONTRADICTION, NONE_FITS, ROUGH
 from study.statistics.limit_verdict import LEVEL as IS_LEVEL
 from study.statistics.thresholds import LEVEL_PER_DECADE, SIGNIFICANCE
 from study.statistics.verdicts import NO, YES
@@ -123,11 +123,13 @@ def _part(evidence: Evidence, view: View, part: str) -> pd.Series:
 
 
 def _limit_of(row: pd.Series, evidence: Evidence, view: View) -> str:
+    of = row["limit_from"]
+    if row["reason"] == REASONS[BOUNDED]:
+        return _falling_to(row, evidence, view)
     limit = (
         f"{show(row['limit'], 'fixed4')} ({LEVEL} from {show(row['limit_low'], 'fixed4')} to "
         f"{show(row['limit_high'], 'fixed4')})"
     )
-    of = row["limit_from"]
     if row["reason"] == REASONS[IS_LEVEL]:
         return (
             f": {_MEAN_OF[of]} is level, for it changes by no more than "
@@ -144,6 +146,29 @@ def _limit_of(row: pd.Series, evidence: Evidence, view: View) -> str:
     )
 
 
+def _falling_to(row: pd.Series, evidence: Evidence, view: View) -> str:
+    """Say that what falls has a limit, and what is known of it."""
+    of = row["limit_from"]
+    survivors = evidence.rows(MODEL_SCORES, view, part=of, standing=SURVIVES)
+    sentence = (
+        f": {_MEAN_OF[of]} falls, and no mean falls below 1, the size of the shortest path. The "
+        f"limit is below {show(row['limit_high'], 'fixed4')}"
+    )
+    endless = survivors.select(has_limit=NO)
+    known = evidence.rows(LIMITS, view, part=of).frame
+    known = known[known["model"].isin(survivors["model"])]
+    if not known.empty:
+        named = [f"{show(one.value, 'fixed4')} ({one.model} model)" for one in known.itertuples()]
+        sentence += f"; models that have one and survive put it at {listed(named)}"
+    if endless.empty:
+        return sentence + "."
+    names = endless["model"].tolist()
+    follow = "model, which falls without end, follows"
+    if len(names) > 1:
+        follow = "models, which fall without end, follow"
+    return f"{sentence}. How far below is open: the {listed(names)} {follow} the means as well."
+
+
 def _with_p(scores: pd.DataFrame) -> str:
     """Name models that survive, with the p of what they survive."""
     names = [
@@ -156,11 +181,9 @@ def _with_p(scores: pd.DataFrame) -> str:
 
 def _growth_of(row: pd.Series, evidence: Evidence, view: View) -> str:
     part = WHOLE if WHOLE in row["decided_by"] else INTERIOR
-    grows = "grows" if _part(evidence, view, part)["per_decade"] > 0 else "falls"
     it = "it" if part == WHOLE else _MEAN_OF[part]
     return (
-        f", among the models tried: {it} {grows} like a logarithm of the "
-        "number of points or faster."
+        f", among the models tried: {it} grows like a logarithm of the number of points or faster."
     )
 
 
@@ -210,13 +233,16 @@ def _edge_check(evidence: Evidence, view: View) -> str | None:
     row = evidence.one(EDGE_LIMITS, view)
     if row is None:
         return None
-    if row["level"] != YES:  # then the mean of the interior is no limit
-        return None
-    agrees = "agree" if row["agrees"] == YES else "do not agree"
+    if row["level"] != YES:
+        return (
+            "The interior is not level, so that its mean is no limit to hold the edge model's "
+            f"{show(row['limit'], 'fixed4')} against."
+        )
+    differ = "No difference is seen" if row["agrees"] == YES else "The two differ"
     return (
         "With an edge that thickens as the logarithm of the number of points, the whole mesh has "
         f"the limit {show(row['limit'], 'fixed4')}; the interior of the larger meshes has the mean "
-        f"{show(row['interior'], 'fixed4')}. The two {agrees}: they differ by "
-        f"{show(abs(row['t']), 'fixed1')} standard errors "
+        f"{show(row['interior'], 'fixed4')}. {differ}: the two are "
+        f"{show(abs(row['t']), 'fixed1')} standard errors apart "
         f"(p\u00a0=\u00a0{show(row['p'], 'p')})."
     )

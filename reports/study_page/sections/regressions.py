@@ -16,6 +16,7 @@ from study.analysis.limits import (
     LIMIT_EVIDENCE,
 )
 from study.analysis.model_scores import (
+    BEHIND,
     MODEL_SCORES,
     PREDICTIONS,
     PROJECTIONS,
@@ -151,7 +152,8 @@ def _scores(evidence: Evidence, view: View) -> list[str] | None:
         first = evidence.rows(PART_MEANS, view, part=part)["n_points"].min()
         if smallest > first:
             of = f"{of} from {smallest:,} points on"
-        sentences.append(f"For {of}, {_which(left)} and {_refuted(refuted)}.")
+        behind = rows["model"][rows["standing"] == BEHIND].tolist()
+        sentences.append(f"For {of}, {_which(left)}{_behind(behind)} and {_refuted(refuted)}.")
         if struck:
             sentences.append(
                 f"The {listed(struck)} {'model has' if len(struck) == 1 else 'models have'} "
@@ -164,6 +166,13 @@ def _scores(evidence: Evidence, view: View) -> list[str] | None:
 
 def _which(left: list[str]) -> str:
     return f"the {models_survive(left)}" if left else "no model survives"
+
+
+def _behind(names: list[str]) -> str:
+    """Name the models that are not refuted, but fit much worse than others."""
+    if not names:
+        return ""
+    return f", the {listed(names)} {'one is' if len(names) == 1 else 'ones are'} far behind"
 
 
 def _refuted(names: list[str]) -> str:

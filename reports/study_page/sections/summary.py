@@ -15,6 +15,7 @@ from reports.page.blocks import (
 from reports.page.evidence import Evidence
 from reports.page.views import View
 from reports.study_page.sections.continuation import one_chance_in_short
+from reports.study_page.sections.edge import edge_in_short
 from reports.study_page.sections.limit import trend_sentence
 from reports.study_page.sections.plain_insertion import paper_triangulation
 from reports.study_page.tables import TABLE_4
@@ -152,6 +153,7 @@ def _sentences(evidence: Evidence, view: View) -> list[str] | None:
         _spread(evidence, view),
         paper_triangulation(evidence),
         trend_sentence(evidence, view),
+        edge_in_short(evidence, view),
         _theory(evidence, view),
     )
     sentences = [part for part in parts if part]

@@ -38,8 +38,8 @@ DEFINITIONS: dict[str, frozenset[str]] = {
             "The lower one, 2, is the size of the shortest path inside.",
             "The runs test counts whole numbers of runs, so that sets of a given size can "
             "have only certain p-values.",
-            "The whole mesh and its interior must have one limit, because the edge's share of the "
-            "triangles tends to 0.",
+            "The whole mesh and its interior have one limit, as long as the edge's share of the "
+            "triangles falls faster than its mean grows.",
             "Theorem 1 takes the chance to end to be the same at every step, and makes all "
             "four moments out of it.",
             "Theorem 2 supposes p ≥ 1/3 and, with Theorem 1, the same p at every step.",

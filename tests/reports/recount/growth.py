@@ -37,6 +37,13 @@ BASES: dict[str, Callable[[np.ndarray], list[np.ndarray]]] = {
     "edge": lambda x: [x**0, x**-0.5],
     "thickening edge": lambda x: [x**0, x**-0.5, np.log(x) * x**-0.5],
 }
+#: Models that are a model with some of its coefficients fixed.
+CONTAINED = {
+    "quadratic": ("linear",),
+    "growing power": ("linear", "logarithmic"),
+    "thickening edge": ("edge",),
+    "saturating": ("edge", "logarithmic"),
+}
 _POWERS = np.linspace(-10, 2, 12001)
 PUBLISHED_UP_TO = 200_000
 #: Grids and iterations leave so much open.
@@ -240,12 +247,8 @@ class Scored:
     prediction_p: float
     aic: float
 
-    refuted_below: float
+    refuted: bool
     struck_out: bool
-
-    @property
-    def refuted(self) -> bool:
-        return min(self.fit_p, self.prediction_p) < self.refuted_below
 
     @property
     def out(self) -> bool:
@@ -259,18 +262,26 @@ def scores(run: Run, method: str, distribution: str, part: str) -> dict[str, Sco
     seen = means(*key, part)
     kept = fitted_sizes(seen)
     level = level_mean(key) if part == WHOLE else None
-    made = {}
+    made: dict[str, Scored] = {}
+    best = _best_power(seen, -10, 2)[0] if len(seen.x) >= 3 else 0.0
     for model, (terms, _) in MODELS.items():
+        if (model == "growing power" and best <= 0) or (model == "saturating" and best >= 0):
+            continue  # it is best as the logarithm
         if kept.sum() < terms + 1 or kept.all() or (model == "logistic" and seen.y.max() >= 4):
             continue
         fit, n = squares(model, seen), len(seen.x) - terms
         prediction = _prediction_chi2(model, seen, kept)
         unseen = int((~kept).sum())
-        made[model] = Scored(
+        p = (
             float(stats.f.sf(fit / n, n, seen.df)),
             float(stats.f.sf(prediction / unseen, unseen, seen.df)),
+        )
+        smaller = () if model == "constant" else ("constant", *CONTAINED.get(model, ()))
+        upheld = any(name in made and not made[name].refuted for name in smaller)
+        made[model] = Scored(
+            *p,
             fit + 2 * terms,
-            refuted_below(run),
+            min(p) < refuted_below(run) and not upheld,
             level is not None and _has_another_limit(model, key, level),
         )
     return made
@@ -409,9 +420,12 @@ def verdict(run: Run, method: str, distribution: str, part: str) -> tuple[str, s
     least, most = power_interval(key, part)
     if not grows and (edge or ("saturating" in left and most < -0.1)):
         return "yes", "only models with a limit survive"
+    telling = [name for name in left if MODELS[name][1] is not None]
+    if telling and high < 0:
+        return "yes", "it falls, and cannot fall below 1"
     if grows and not edge and least > -0.1:
         return "no", "it grows like a logarithm or faster"
-    if any(MODELS[name][1] is not None for name in left):
+    if telling:
         return "undecided", "models with and without a limit survive"
     return "undecided", "no model follows the means"
 
@@ -419,6 +433,9 @@ def verdict(run: Run, method: str, distribution: str, part: str) -> tuple[str, s
 def _limit(key: tuple, part: str, reason: str) -> Interval:
     if reason == "the mean is level":
         return limit_of("constant", key, part)
+    if reason == "it falls, and cannot fall below 1":
+        seen = means(*key, part)
+        return np.nan, -np.inf, float(seen.y[-1] + t95(seen.df) * np.sqrt(seen.v[-1]))
     ends = [
         limit_of(name, key, part)
         for name in survivors(*key, part)
@@ -455,7 +472,8 @@ def one_limit(run: Run, method: str, distribution: str) -> OneLimit | None:
         return OneLimit("undecided", reason, first)
     if yes:
         level = INTERIOR in yes and judged[INTERIOR][1] == "the mean is level"
-        part = INTERIOR if level else next(iter(yes))
+        known = [one for one in yes if not np.isnan(yes[one][0])] or list(yes)
+        part = INTERIOR if level else known[0]
         return OneLimit("yes", judged[part][1], part, yes[part])
     if no:
         return OneLimit("no", judged[no[0]][1], no[0])

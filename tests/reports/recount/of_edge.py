@@ -7,7 +7,17 @@ import pandas as pd
 from expected import Sheet, listed, plural
 from growth import means_of
 from recounts import View, recount
-from run_data import INTERIOR, INTERIOR_LAYER, WHOLE, WORDS, Run, holm, log10_f_tail, t95
+from run_data import (
+    INTERIOR,
+    INTERIOR_LAYER,
+    WHOLE,
+    WORDS,
+    Run,
+    holm,
+    log10_f_tail,
+    log10_t_tail,
+    t95,
+)
 from scipy import stats
 
 
@@ -57,6 +67,102 @@ def changes(v: View, s: Sheet, k: int) -> str:
         f"From {s(a)} to {s(b)} points the mean of the whole mesh changes by "
         f"{s(whole[b] - whole[a])}, from {s(whole[a])} to {s(whole[b])}, and that of the interior "
         f"by {s(inside[b] - inside[a])}, from {s(inside[a])} to {s(inside[b])}."
+    )
+
+
+def _change(v: View, part: str) -> tuple[int, int, float, float, float, float]:
+    """Welch's test and interval between the ends of the sizes that have an interior."""
+    sizes = v.run.groups(v.method, v.distribution, INTERIOR)
+    a, b = min(sizes), max(sizes)
+    groups = v.run.groups(v.method, v.distribution, part)
+    first, last = groups[a], groups[b]
+    parts = np.array([one.var(ddof=1) / len(one) for one in (first, last)])
+    df = parts.sum() ** 2 / (parts**2 / [len(first) - 1, len(last) - 1]).sum()
+    error, change = np.sqrt(parts.sum()), last.mean() - first.mean()
+    half = stats.t.ppf(0.975, df) * error
+    return a, b, change, change - half, change + half, 2 * stats.t.sf(abs(change) / error, df)
+
+
+def _whose(v: View) -> str:
+    _, _, whole, _, _, p = _change(v, WHOLE)
+    _, _, _, low, high, _ = _change(v, INTERIOR)
+    assert p < 0.05
+    word = "growth" if whole > 0 else "fall"
+    least, most = min(low / whole, high / whole), max(low / whole, high / whole)
+    if most < 0.5:
+        return f"most of the {word} of the whole mesh is the edge's"
+    if least > 0.5:
+        return f"most of the {word} of the whole mesh is the interior's own"
+    return f"how much of the {word} of the whole mesh is the edge's stays open"
+
+
+@recount("parts", "(Most of the|How much of the)")
+def whose_change(v: View, s: Sheet, k: int) -> str:
+    whose = _whose(v)
+    return f"{whose[0].upper()}{whose[1:]}."
+
+
+@recount("key-figures", "In the interior, ")
+def edge_in_short(v: View, s: Sheet, k: int) -> str:
+    a, b, change, low, high, _ = _change(v, INTERIOR)
+    return (
+        f"In the interior, {INTERIOR_LAYER} steps or more from the hull, it changes by {s(change)} "
+        f"(95 % from {s(low)} to {s(high)}) from {s(a)} points to {s(b)}: {_whose(v)}."
+    )
+
+
+def _last_layers(run: Run, method: str, distribution: str) -> tuple[float, np.ndarray] | None:
+    """Mean of layers 24 to 29 of the largest meshes, and how far it is off the interior's."""
+    frame = run.counts("layers", method, distribution)
+    frame = frame[frame["n_points"] == frame["n_points"].max()]
+
+    def means_of_layers(kept: pd.Series) -> pd.Series:
+        return pd.Series(
+            {
+                k: np.average(one["lepp_size"], weights=one["count"])
+                for k, one in frame[kept].groupby("replicate")
+            },
+            dtype=float,
+        )
+
+    last = means_of_layers(frame["layer"].between(24, 29))
+    both = pd.concat([last, means_of_layers(frame["layer"] == INTERIOR_LAYER)], axis=1).dropna()
+    if len(both) < 2:
+        return None
+    return float(both[0].mean()), (both[0] - both[1]).to_numpy()
+
+
+def _log10_p(difference: np.ndarray) -> float:
+    t = difference.mean() / (difference.std(ddof=1) / np.sqrt(len(difference)))
+    return log10_t_tail(abs(t), len(difference) - 1) + np.log10(2)
+
+
+@recount("layers", "Layers 24 to 29")
+def reach(v: View, s: Sheet, k: int) -> str:
+    every = {
+        (m, d): found
+        for m in v.run.methods
+        for d in v.run.distributions
+        if (found := _last_layers(v.run, m, d)) is not None
+    }
+    p = dict(
+        zip(every, holm(np.array([10 ** _log10_p(off) for _, off in every.values()])), strict=True)
+    )
+    key = (v.method, v.distribution)
+    mean, off = every[key]
+    half = t95(len(off) - 1) * off.std(ddof=1) / np.sqrt(len(off))
+    interval = f"95 % from {s(off.mean() - half)} to {s(off.mean() + half)}"
+    start = f"Layers 24 to 29, the last before the interior, have a mean of {s(mean)} together"
+    if p[key] < 0.05:
+        return (
+            f"{start}, that of the interior and {s(off.mean())} ({interval}; "
+            f"{s.p_is(_log10_p(off), 1e-5)}): of {v.word} points the edge, or what the density of "
+            "the points has to do with it, reaches further, and some of it is in what is called "
+            "the interior here."
+        )
+    return (
+        f"{start}, which is not shown to differ from that of the interior (by {s(off.mean())}, "
+        f"{interval}): no reach of the edge beyond them is seen."
     )
 
 
@@ -213,10 +319,17 @@ def very_longest(v: View, s: Sheet, k: int) -> str:
     total, layer = int(row.sum()), int(row.idxmax())
     where = "in the interior" if layer == INTERIOR_LAYER else f"in layer {s(layer)}"
     inside = int(row[INTERIOR_LAYER]) if INTERIOR_LAYER in row else 0
-    start = "starts" if total == 1 else "all start" if inside == total else "most start"
+    if total == 1:
+        start = f"starts {where}"
+    elif row.max() == total:
+        start = f"all start {where}"
+    elif 2 * row.max() > total:
+        start = f"most start {where}"
+    else:
+        start = f"{s(inside)} of them {plural(max(inside, 1), 'starts', 'start')} in the interior"
     return (
         f"At this number of points {s(total)} {plural(total, 'path has', 'paths have')} the "
-        f"largest size of all, {s(size)}, and {start} {where}."
+        f"largest size of all, {s(size)}, and {start}."
     )
 
 

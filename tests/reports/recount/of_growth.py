@@ -15,6 +15,7 @@ from growth import (
     fitted_sizes,
     free_of_edge,
     level_mean,
+    limit_of,
     linear,
     means,
     means_of,
@@ -48,6 +49,11 @@ def _with_a_limit(found: OneLimit, key: tuple, it: str, s: Sheet) -> str:
             f"{s(value)} (95 % from {s(low)} to {s(high)})."
         )
     scored, left = scores(*key, found.part), survivors(*key, found.part)
+    if found.reason.startswith("it falls"):
+        return (
+            f"{it} has a limit: {_MEAN_OF[found.part]} falls, and no mean falls below 1, the size "
+            "of the shortest path."
+        )
     names = [
         f"{name} (p = {s.p(np.log10(one.fit_p), 1e-4)} for the fit to all sizes, "
         f"{s.p(np.log10(one.prediction_p), 1e-4)} for sizes not seen)"
@@ -69,10 +75,9 @@ def verdict_sentence(key: tuple, it: str, s: Sheet) -> str:
     if found.word == "yes":
         return _with_a_limit(found, key, opening, s)
     if found.word == "no":
-        grows = "grows" if per_decade(key, found.part)[0] > 0 else "falls"
         return (
             f"{opening} has no limit in sight, among the models tried: "
-            f"{'it' if found.part == WHOLE else _MEAN_OF[found.part]} {grows} like a logarithm of "
+            f"{'it' if found.part == WHOLE else _MEAN_OF[found.part]} grows like a logarithm of "
             "the number of points or faster."
         )
     stays = f"Whether {it} has a limit stays undecided:"
@@ -112,8 +117,38 @@ def limit_in_full(v: View, s: Sheet, k: int) -> str:
     return verdict_sentence(v.key, "the mean", s)
 
 
-@recount("key-figures", "The limit is ")
-@recount("limit", "The limit is ")
+@recount("key-figures", "The limit is below ")
+@recount("limit", "The limit is below ")
+def limit_from_above(v: View, s: Sheet, k: int) -> str:
+    found = one_limit(*v.key)
+    assert found is not None
+    left = survivors(*v.key, found.part)
+    named = [
+        f"{s(limit_of(name, v.key, found.part)[0], 2 * NEAR)} ({name} model)"
+        for name in MODELS
+        if name in left and MODELS[name][1]
+    ]
+    put = f"; models that have one and survive put it at {listed(named)}" if named else ""
+    return f"The limit is below {s((found.limit or (np.nan,) * 3)[2])}{put}."
+
+
+@recount("key-figures", "How far below is open")
+@recount("limit", "How far below is open")
+def models_that_fall(v: View, s: Sheet, k: int) -> str:
+    found = one_limit(*v.key)
+    assert found is not None
+    left = survivors(*v.key, found.part)
+    endless = [name for name in MODELS if name in left and MODELS[name][1] is False]
+    follow = plural(
+        len(endless),
+        "model, which falls without end, follows",
+        "models, which fall without end, follow",
+    )
+    return f"How far below is open: the {listed(endless)} {follow} the means as well."
+
+
+@recount("key-figures", r"The limit is \d")
+@recount("limit", r"The limit is \d")
 def limit_itself(v: View, s: Sheet, k: int) -> str:
     found = one_limit(*v.key)
     value, low, high = (found and found.limit) or (np.nan,) * 3
@@ -121,10 +156,11 @@ def limit_itself(v: View, s: Sheet, k: int) -> str:
     return f"The limit is {s(value, near)} (95 % from {s(low, near)} to {s(high, near)})."
 
 
-@recount("limit", "But the interior is not level")
+@recount("limit", "The interior is not level")
 def not_level(v: View, s: Sheet, k: int) -> str:
-    is_not = "is not level, and its mean no limit" if level_mean(v.key) is None else "is level"
-    return f"But the interior {is_not}: they need not agree."
+    limit, *_ = edge_limit(v.key) or (np.nan,)
+    is_not = "is not level, so that its mean is no limit" if level_mean(v.key) is None else "is"
+    return f"The interior {is_not} to hold the edge model's {s(limit)} against."
 
 
 def _larger_half(groups: Groups) -> Groups:
@@ -167,12 +203,12 @@ def edge_check(v: View, s: Sheet, k: int) -> str:
     )
 
 
-@recount("limit", "The two ")
+@recount("limit", "(The two differ|No difference is seen)")
 def edge_agrees(v: View, s: Sheet, k: int) -> str:
     _, _, t, p = edge_limit(v.key) or (np.nan,) * 4
     return (
-        f"The two {'agree' if p >= 0.05 else 'do not agree'}: they differ by "
-        f"{s(abs(t), 1e-3)} standard errors (p = {s.p(np.log10(p), 1e-3)})."
+        f"{'No difference is seen' if p >= 0.05 else 'The two differ'}: the two are "
+        f"{s(abs(t), 1e-3)} standard errors apart (p = {s.p(np.log10(p), 1e-3)})."
     )
 
 
@@ -238,6 +274,9 @@ def which_survive(v: View, s: Sheet, k: int) -> str:
     names = [m for m in scored if m in left]
     refuted = [m for m in scored if scored[m].refuted]
     which = f"the {_models(names)}" if names else "no model survives"
+    rest = [m for m in scored if m not in left and not scored[m].out]
+    if rest:
+        which += f", the {listed(rest)} {plural(len(rest), 'one is', 'ones are')} far behind"
     gone = (
         f"the {listed(refuted)} {plural(len(refuted), 'one is', 'ones are')} refuted"
         if refuted
@@ -324,7 +363,7 @@ def curves_of_all(v: View, s: Sheet, k: int) -> str:
 def projections(v: View, s: Sheet, k: int) -> str:
     words = []
     for model in survivors(*v.key, WHOLE):
-        if model != "growing power" and MODELS[model][1] is not None:
+        if MODELS[model][1] is not None:
             ends = value_interval(model, v.key, WHOLE, 1e6)
             # So far out, the sixth digit of a variance counts.
             near = 5e-6 + 1e-5 * (ends[2] - ends[1])

@@ -5,7 +5,7 @@ from functools import cache
 import naive
 import numpy as np
 from expected import Sheet, listed, plural
-from growth import NEAR, one_limit
+from growth import NEAR, one_limit, scores, survivors
 from of_comparisons import analogous as _analogous
 from of_paper import independent
 from of_statistics import figure_5, figure_6, table_2, table_3, table_4, table_5, table_6, table_7
@@ -17,7 +17,7 @@ from of_theory import (
     side,
 )
 from recounts import View, recount
-from run_data import log10_chi2_tail, mean_interval
+from run_data import WHOLE, log10_chi2_tail, mean_interval
 from scipy.spatial import Delaunay
 
 from study.design.sampling import sample_points
@@ -153,14 +153,20 @@ def has_limit_4(v: View, s: Sheet, k: int) -> str:
     found = one_limit(*v.key)
     if found is None:
         return f"{start} | not tested | the run has too few sizes"
+    logistic = scores(*v.key, WHOLE)["logistic"]
+    stands = "survives" if "logistic" in survivors(*v.key, WHOLE) else "fits far worse than others"
+    model = f"; the logistic model {'is refuted' if logistic.refuted else stands}"
     if found.limit is None:
         seen = f"whether the mean has a limit: {found.word} ({found.reason})"
-        return f"{start} | undecided | {seen}"
+        return f"{start} | undecided | {seen}{model}"
     value, low, high = found.limit
     near = 2 * NEAR
+    where = f"{s(value, near)} (95 % interval {s(low, near)} to {s(high, near)})"
+    if np.isnan(value):
+        where = f"below {s(high)}"
     return (
         f"{start} | {'not rejected' if low <= 4 <= high else 'no'} | the mean has a limit "
-        f"({found.reason}): {s(value, near)} (95 % interval {s(low, near)} to {s(high, near)})"
+        f"({found.reason}): {where}{model}"
     )
 
 

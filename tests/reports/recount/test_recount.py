@@ -127,7 +127,7 @@ def test_a_number_that_a_section_gets_wrong_is_noticed(
     monkeypatch.setattr(edge, "show", wrong)
     outcome = recount_sentences(page_sentences(directory), Run(directory))
     places = {text.partition(" ")[0] for text in outcome.differing}
-    assert places == {"parts", "figure-parts", "layers"}
+    assert places == {"parts", "figure-parts", "layers", "key-figures"}
 
 
 def test_other_words_and_a_sentence_that_is_not_known_are_noticed(

@@ -11,6 +11,7 @@ from made_runs import page
 from lepp import INTERIOR_LAYER
 from reports.page.views import View
 from reports.study_page.sections import edge
+from study.analysis.part_changes import LAST_LAYERS, PART_CHANGES
 from study.analysis.part_means import COMMON_MEANS, LAYER_MEANS, LONGEST_PATHS, PART_MEANS
 
 VIEW_OF = View("incremental", "uniform")
@@ -36,6 +37,89 @@ def test_the_trend_of_both_parts(curves, interior_grows):
     ) in said
     grows = {part: last - first > 0.02 for part, (first, last) in ends.items()}
     assert grows == {"whole": not interior_grows, "interior": bool(interior_grows)}
+
+
+@pytest.mark.parametrize(
+    ("curves", "spread", "words"),
+    [
+        (("saturating", "level"), 0.3, "most of the growth of the whole mesh is the edge's"),
+        (("thickening", "level"), 0.3, "most of the fall of the whole mesh is the edge's"),
+        (("logarithmic", "logarithmic"), 0.3, "most of the growth of the whole mesh is the "
+            "interior's own"),
+        (("falling", "falling"), 0.3, "most of the fall of the whole mesh is the interior's own"),
+        (("logarithmic", "halfway"), 0.3, "how much of the growth of the whole mesh is the edge's "
+            "stays open"),
+        (("level", "saturating"), 0.3, ""),
+    ],
+)  # fmt: skip
+def test_whose_the_trend_is(curves, spread, words):
+    text = grown(*curves, spread=spread)
+    opening, said = text.prose("key-figures"), text.prose("parts")
+    row = text.evidence.rows(PART_CHANGES, **VIEW, part="interior").first
+    ends = [f"{row[name]:.4f}".replace("-", "−") for name in ("change", "low", "high")]
+    sentence = (
+        "In the interior, 30 steps or more from the hull, it changes by {} (95 % from {} to {}) "
+        "from 10,000 points to 2,000,000: "
+    ).format(*ends)
+    assert (f"{sentence}{words}." in opening) == bool(words)
+    assert ("In the interior, 30" in opening) == bool(words)
+    assert (f"{words[:1].upper()}{words[1:]}." in said) == bool(words) or not words
+    assert ("of the whole mesh is the" in said) == bool(words)
+
+
+@pytest.mark.parametrize(
+    ("verdict", "words"),
+    [
+        ("rejected", "3.0652 together, that of the interior and −0.0416 (95 % from −0.0500 to "
+            "−0.0300; p = 0.0010): of uniform points the edge, or what the density of the points "
+            "has to do with it, reaches further, and some of it is in what is called the interior "
+            "here."),
+        ("not rejected", "3.0652 together, which is not shown to differ from that of the interior "
+            "(by −0.0416, 95 % from −0.0500 to −0.0300): no reach of the edge beyond them is "
+            "seen."),
+    ],
+)  # fmt: skip
+def test_whether_the_edge_reaches_into_the_interior(verdict, words):
+    evidence = grown("saturating", "level").evidence
+    table = LAST_LAYERS.table(
+        [
+            VIEW
+            | {"n_points": 2_000_000, "triangulations": 12, "last_layers": 3.0652}
+            | {"interior": 3.1068, "difference": -0.0416, "low": -0.05, "high": -0.03}
+            | {"p": 0.001, "log10_p": -3.0, "same_mean": verdict}
+        ]
+    )
+    changed = replace(evidence, tables=evidence.tables.adding(table))
+    *_, said = edge._layers(changed, VIEW_OF)
+    assert said.replace("\u00a0", " ") == (
+        f"Layers 24 to 29, the last before the interior, have a mean of {words}"
+    )
+    assert len(edge._layers(changed, View("incremental", "exponential"))) == 1
+
+
+@pytest.mark.parametrize(
+    ("paths", "inside", "layer", "of_layer", "words"),
+    [
+        (1, 1, 30, 1, "starts in the interior"),
+        (1, 0, 7, 1, "starts in layer 7"),
+        (4, 4, 30, 4, "all start in the interior"),
+        (4, 0, 7, 4, "all start in layer 7"),
+        (4, 1, 7, 3, "most start in layer 7"),
+        (4, 3, 30, 3, "most start in the interior"),
+        (4, 1, 7, 1, "1 of them starts in the interior"),
+        (4, 2, 7, 2, "2 of them start in the interior"),
+        (3, 0, 15, 1, "none of them starts in the interior"),
+    ],
+)
+def test_where_the_longest_paths_start(paths, inside, layer, of_layer, words):
+    evidence = grown("saturating", "level").evidence
+    table = evidence.tables["longest_paths"]
+    frame = table.frame.assign(
+        paths=paths, interior_paths=inside, layer=layer, layer_paths=of_layer
+    )
+    changed = replace(evidence, tables=evidence.tables.adding(replace(table, frame=frame)))
+    (said,) = edge._longest(changed, VIEW_OF)
+    assert said.endswith(f" the largest size of all, 20, and {words}.")
 
 
 @pytest.mark.parametrize(
@@ -74,7 +158,7 @@ def test_the_layers_of_the_highest_mean_and_of_the_longest_paths(edge):
     longest = text.prose("longest")
     assert (
         f"At this number of points {12 * paths} paths have the largest size of all, {size}, and "
-        f"most start in layer {layer}."
+        f"all start in layer {layer}."
     ) in longest
     of_long = (
         f"Of the {12 * paths:,} paths of {size} triangles and more at 2,000,000 points, "

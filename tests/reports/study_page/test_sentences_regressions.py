@@ -14,6 +14,7 @@ from reports.study_page.sections.limit import trend_sentence
 from reports.study_page.sections.regressions import _heights
 from study.analysis import limits, model_scores, regressions
 from study.analysis.limits import EDGE_LIMITS, LIMIT_VERDICTS
+from study.text.numbers import listed
 
 
 def test_of_sizes_without_repetitions_no_trend_is_said():
@@ -49,16 +50,14 @@ SENTENCES = {
         "The mean has a limit: the mean of the interior is level, for it changes by no more than "
         "0.001 with each tenfold number of points from 10,000 on; the limit is 3.476",
     ),
-    ("saturating", "slow"): (
-        "The mean has a limit, among the 10 models tried: all that have none",
-    ),
+    ("saturating", "slow"): ("The mean has a limit, among the 9 models tried: all that have none",),
     ("logarithmic", "logarithmic"): (
         "The mean has no limit in sight, among the models tried: it grows like a logarithm of the "
         "number of points or faster.",
     ),
     ("falling", "falling"): (
-        "The mean has no limit in sight, among the models tried: it falls like a logarithm of the "
-        "number of points or faster.",
+        "The mean has a limit: the mean of the whole mesh falls, and no mean falls below 1, the "
+        "size of the shortest path. The limit is below 3.5",
     ),
     ("wave", "logarithmic"): (
         "The mean has no limit in sight, among the models tried: the mean of the interior grows "
@@ -77,7 +76,7 @@ SENTENCES = {
 @pytest.mark.parametrize("curves", SENTENCES, ids="-".join)
 def test_the_verdict_is_said(curves):
     said = grown(*curves).prose("limit")
-    assert said.startswith("The whole mesh and its interior must have one limit, because the edge")
+    assert said.startswith("The whole mesh and its interior have one limit, as long as the edge's")
     assert said.count("has a limit") + said.count("has no limit") == 1
     opening = grown(*curves).prose("key-figures")
     for sentence in SENTENCES[curves]:
@@ -102,6 +101,30 @@ def test_a_limit_is_said_with_its_ends_and_what_it_rests_on():
         f"saturating (p = {one['fit_p']:.4f} for the fit to all sizes, "
         f"{one['prediction_p']:.4f} for sizes not seen)"
     ) in said
+
+
+def test_of_a_mean_that_falls_the_models_on_both_sides_are_named():
+    sides = set()
+    for curve, spread in (("falling", 0.3), ("falling", 2.0), ("thickening", 5.0)):
+        text = grown(curve, curve, spread=spread)
+        row = verdict_of(text)
+        assert row["reason"] == "it falls, and cannot fall below 1"
+        assert np.isnan(row["limit"])
+        assert np.isnan(row["limit_low"])
+        said = text.prose("limit")
+        of_part = {"method": "incremental", "distribution": "uniform", "part": row["limit_from"]}
+        scores = text.evidence.rows(model_scores.MODEL_SCORES, **of_part, standing="survives")
+        every = text.evidence.rows(limits.LIMITS, **of_part).frame
+        known = every[every["model"].isin(scores["model"])]
+        named = [f"{one.value:.4f} ({one.model} model)" for one in known.itertuples()]
+        put = f"; models that have one and survive put it at {listed(named)}" if named else ""
+        assert f"The limit is below {row['limit_high']:.4f}{put}." in said
+        endless = scores["model"][scores["has_limit"] == "no"].tolist()
+        assert ("How far below is open" in said) == bool(endless)
+        if endless:
+            assert f"How far below is open: the {endless[0]}" in said
+        sides.add((bool(endless), len(known) > 0))
+    assert sides == {(True, False), (True, True)}
 
 
 def test_a_model_of_another_limit_is_named():
@@ -189,21 +212,29 @@ def test_a_run_within_the_published_sizes_says_what_it_leaves_out():
 # The edge model
 
 
-@pytest.mark.parametrize(("interior", "agree"), [("level", "agree"), ("off", "do not agree")])
+@pytest.mark.parametrize(
+    ("interior", "agree"), [("level", "No difference is seen"), ("off", "The two differ")]
+)
 def test_the_edge_limit_is_held_against_the_interior(interior, agree):
     text = grown("thickening", interior)
     said = text.prose("limit")
-    assert f"The two {agree}: they differ by " in said
+    assert f"{agree}: the two are " in said
     assert "not level" not in said
     row = text.evidence.rows(EDGE_LIMITS, method="incremental", distribution="uniform").first
     assert row["interior"] == pytest.approx(CURVES[interior](np.array([1.0]))[0], abs=5e-4)
     assert f"the limit {row['limit']:.4f}; the interior of the larger meshes has the mean " in said
-    assert f"{row['interior']:.4f}. The two" in said
+    assert f"{row['interior']:.4f}. {agree}" in said
 
 
 def test_a_mean_that_is_not_level_is_no_limit():
-    said = grown("saturating", "logarithmic").prose("limit")
+    text = grown("saturating", "logarithmic")
+    said = text.prose("limit")
     assert "the interior of the larger meshes" not in said
+    row = text.evidence.rows(EDGE_LIMITS, method="incremental", distribution="uniform").first
+    assert said.endswith(
+        "The interior is not level, so that its mean is no limit to hold the edge model's "
+        f"{row['limit']:.4f} against."
+    )
 
 
 # Beyond the data

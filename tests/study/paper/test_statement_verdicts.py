@@ -372,6 +372,13 @@ def test_the_cost_is_constant_if_no_mean_is_above_4(highest, holds):
     )  # fmt: skip
 
 
+LOGISTIC_SURVIVES = [
+    {"part": "whole", "model": "linear", "standing": "refuted"},
+    {"part": "whole", "model": "logistic", "standing": "survives"},
+    {"part": "interior", "model": "logistic", "standing": "refuted"},
+]
+
+
 @pytest.mark.parametrize(
     ("low", "high", "holds"),
     [
@@ -387,20 +394,42 @@ def test_a_limit_of_4_is_held_against_the_one_of_both_parts(low, high, holds):
     limit = {"limit": 3.1, "limit_low": low, "limit_high": high}
     rows = [{"has_limit": "yes", "reason": "so it is"} | limit]
     end = "–" if np.isnan(high) else f"{high:.4f}"
-    seen, evidence = judged(LIMIT, limit_verdicts=rows)
+    seen, evidence = judged(LIMIT, limit_verdicts=rows, model_scores=LOGISTIC_SURVIVES)
     assert seen == holds
     assert evidence == (
-        f"the mean has a limit (so it is): 3.1000 (95 % interval {low:.4f} to {end})"
+        f"the mean has a limit (so it is): 3.1000 (95 % interval {low:.4f} to {end}); the logistic "
+        "model survives"
     )
 
 
+@pytest.mark.parametrize(("high", "holds"), [(3.99, "no"), (4.01, "not rejected")])
+def test_a_limit_known_from_above_alone_is_held_against_4(high, holds):
+    limit = {"limit": np.nan, "limit_low": np.nan, "limit_high": high}
+    rows = [{"has_limit": "yes", "reason": "so it is"} | limit]
+    assert judged(LIMIT, limit_verdicts=rows, model_scores=LOGISTIC_SURVIVES) == (
+        holds,
+        f"the mean has a limit (so it is): below {high:.4f}; the logistic model survives",
+    )
+
+
+@pytest.mark.parametrize(
+    ("standing", "words"),
+    [
+        ("survives", "survives"),
+        ("behind", "fits far worse than others"),
+        ("refuted", "is refuted"),
+        ("struck out", "has another limit than the interior"),
+    ],
+)
 @pytest.mark.parametrize("verdict", ["no", "undecided"])
-def test_without_a_limit_none_is_refuted(verdict):
+def test_without_a_limit_none_is_refuted(verdict, standing, words):
     row = {"has_limit": verdict, "reason": "so it is", "limit": 3.1,
            "limit_low": 3.0, "limit_high": 3.2}  # fmt: skip
-    assert judged(LIMIT, limit_verdicts=[row]) == (
-        "undecided", f"whether the mean has a limit: {verdict} (so it is)",
-    )  # fmt: skip
+    scores = [{"part": "whole", "model": "logistic", "standing": standing}]
+    assert judged(LIMIT, limit_verdicts=[row], model_scores=scores) == (
+        "undecided",
+        f"whether the mean has a limit: {verdict} (so it is); the logistic model {words}",
+    )
     why = lacking(LIMIT, limit_verdicts=[])
     assert why == "the run has too few triangulations"
     few = [{"has_limit": "undecided", "reason": FEW}]

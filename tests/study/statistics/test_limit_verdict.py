@@ -8,6 +8,7 @@ import pytest
 from study.statistics import models
 from study.statistics.groups import Groups, NotEnough
 from study.statistics.limit_verdict import (
+    BOUNDED,
     CONTRADICTION,
     GROWTH,
     LEVEL,
@@ -78,7 +79,6 @@ def test_a_limit_is_seen(name):
 
 WITHOUT = {
     "logarithm": lambda x: 3.04 + 0.0043 * np.log(x),
-    "falling logarithm": lambda x: 3.6 - 0.0043 * np.log(x),
     "power": lambda x: 3 + 0.02 * x**0.2,
     "line": lambda x: 3 + 1e-6 * x,
     "root of the logarithm": lambda x: 3 + 0.03 * np.sqrt(np.log(1000 * x)),
@@ -93,6 +93,84 @@ def test_growth_without_limit_is_never_taken_for_one(name):
     # The two slowest are no nearer to a logarithm than the data can tell.
     assert counted[NO, GROWTH] >= {"l": 0.15, "r": 0.6}.get(name[0] * ("of" in name), 0.9) * RUNS
     assert all(one.limit is None for one in judged)
+
+
+FALLING = {
+    "logarithm": lambda x: 3.6 - 0.0043 * np.log(x),
+    "root of the logarithm": lambda x: 3.6 - 0.03 * np.sqrt(np.log(1000 * x)),
+    "power": lambda x: 3.6 - 0.02 * x**0.2,
+}
+
+
+@pytest.mark.parametrize("name", FALLING)
+def test_a_mean_that_falls_without_end_has_a_limit_since_no_path_is_empty(name):
+    curve = FALLING[name]
+    judged, counted = verdicts(curve)
+    assert counted[YES, BOUNDED] >= 0.9 * RUNS  # a model is refuted in one run of a hundred
+    assert all(verdict != NO for verdict, _ in counted)
+    for one in judged:
+        if one.verdict != YES:
+            continue
+        means = [float(curve(n / 1000)) for n in SIZES]
+        assert np.isnan(one.limit.estimate)
+        assert one.limit.low == -np.inf
+        assert means[-1] - 0.001 < one.limit.high < means[-3]
+
+
+def test_a_falling_mean_that_no_model_follows_is_undecided():
+    _, counted = verdicts(lambda x: 3.6 - 0.03 * np.log(x) + 0.03 * np.sin(2 * np.log(x)))
+    assert counted == {(UNDECIDED, NONE_FITS): RUNS}
+
+
+def test_no_model_is_refuted_while_one_that_it_contains_is_not():
+    spared = 0
+    for seed in range(RUNS):
+        means = made(lambda x: 3.4755 + 0 * x, seed)
+        fitted = sizes_to_fit(means.n_points, PUBLISHED, 4)
+        # A threshold just above the constant's own p, as the worst of the larger models can be.
+        constant = candidates(means, fitted)[0]
+        below = min(constant.fit.p, constant.prediction.p)
+        scored = {one.model.name: one for one in candidates(means, fitted, below)}
+        assert not scored["constant"].refuted
+        for one in scored.values():
+            assert not one.refuted
+            spared += min(one.fit.p, one.prediction.p) < below
+        above = below * (1 + 1e-9)
+        again = {one.model.name: one for one in candidates(means, fitted, above)}
+        assert again["constant"].refuted
+        worse = [
+            one
+            for one in again.values()
+            if min(one.fit.p, one.prediction.p) < above
+            and all(again[name].refuted for name in one.model.contains if name in again)
+        ]
+        assert [one.model.name for one in again.values() if one.refuted] == [
+            one.model.name for one in worse
+        ]
+    assert spared > RUNS / 2
+
+
+def test_a_power_model_that_is_best_as_the_logarithm_is_none_of_its_own():
+    for curve, absent in (
+        (WITHOUT["power"], "saturating"),
+        (WITH_LIMIT["saturating"][1], "growing power"),
+    ):
+        means = made(curve, 1)
+        fitted = sizes_to_fit(means.n_points, PUBLISHED, 4)
+        names = [one.model.name for one in candidates(means, fitted)]
+        assert names == [one.name for one in models.MODELS if one.name != absent]
+
+
+@pytest.mark.parametrize("model", models.MODELS, ids=lambda model: model.name)
+def test_a_model_fits_no_worse_than_those_that_it_contains(model):
+    named = {one.name: one for one in models.MODELS}
+    for seed, curve in enumerate((*WITHOUT.values(), *(c for _, c in WITH_LIMIT.values()))):
+        means = made(curve, seed)
+        for name in model.contains:
+            larger = lack_of_fit(model, means).chi_squared
+            contained = lack_of_fit(named[name], means).chi_squared
+            # The logistic model is fitted on a scale of its own.
+            assert larger <= contained * (1 + 1e-3 * (model.name == "logistic") + 1e-9)
 
 
 def test_a_level_mean_has_a_limit():
@@ -134,7 +212,7 @@ def test_models_are_refuted_by_what_they_have_not_seen_and_by_aic():
     means = made(WITH_LIMIT["thickening edge"][1], 1)
     fitted = sizes_to_fit(means.n_points, PUBLISHED, 4)
     scored = {one.model.name: one for one in candidates(means, fitted)}
-    assert len(scored) == len(models.MODELS)
+    assert len(scored) == len(models.MODELS) - 1  # of two powers one is the logarithm
     assert scored["logarithmic"].refuted
     assert scored["constant"].prediction.p < 1e-6
     assert not scored["thickening edge"].refuted
@@ -216,7 +294,8 @@ def test_the_level_is_that_of_all_trends_together():
     fitted = sizes_to_fit(means.n_points, PUBLISHED, 4)
     for below in (0.01, 1e-4, 0.9):
         for one in candidates(means, fitted, below):
-            assert one.refuted == (min(one.fit.p, one.prediction.p) < below)
+            low = min(one.fit.p, one.prediction.p) < below
+            assert one.refuted == (low and not one.contains_one_that_stands)
 
 
 def test_a_run_of_many_trends_seldom_refutes_a_true_model():
@@ -241,6 +320,7 @@ LIMIT_PART = part(YES, LIMIT, 3.05, 2.95, 3.15)
 OTHER_LIMIT = part(YES, LIMIT, 3.5, 3.4, 3.6)
 NO_PART = part(NO, GROWTH)
 OPEN_PART = part(UNDECIDED, SEVERAL)
+FALLING_PART = part(YES, BOUNDED, np.nan, -np.inf, 3.2)
 
 
 @pytest.mark.parametrize(
@@ -259,6 +339,11 @@ OPEN_PART = part(UNDECIDED, SEVERAL)
         (NO_PART, OPEN_PART, NO, GROWTH, None),
         (OPEN_PART, NO_PART, NO, GROWTH, None),
         (NO_PART, None, NO, GROWTH, None),
+        (FALLING_PART, LEVEL_PART, YES, LEVEL, 3.0),
+        (FALLING_PART, LIMIT_PART, YES, LIMIT, 3.05),
+        (LIMIT_PART, FALLING_PART, YES, LIMIT, 3.05),
+        (FALLING_PART, OTHER_LIMIT, UNDECIDED, CONTRADICTION, None),
+        (FALLING_PART, NO_PART, UNDECIDED, CONTRADICTION, None),
         (OPEN_PART, part(UNDECIDED, ROUGH), UNDECIDED, SEVERAL, None),
         (None, part(UNDECIDED, NONE_FITS), UNDECIDED, NONE_FITS, None),
     ],
