@@ -72,7 +72,8 @@ def part_changes(one: Population) -> Iterator[Row]:
     ends = inside.n_points[[0, -1]]
     for part in PARTS:
         groups = one.data.groups(one.method, one.distribution, part)
-        first, last = (groups.values[int(np.flatnonzero(groups.n_points == n)[0])] for n in ends)
+        by_size = dict(zip(groups.n_points.tolist(), groups.values, strict=True))
+        first, last = (by_size.get(int(n), np.empty(0)) for n in ends)
         if min(len(first), len(last)) < 2 or np.ptp(first) == np.ptp(last) == 0:
             continue
         test = stats.ttest_ind(last, first, equal_var=False)

@@ -31,9 +31,9 @@ from study.paper.published import CITATION
 from study.text.numbers import count, large, listed
 
 LEDE = (
-    "When a triangle of a mesh is bisected, its neighbours have to be bisected with it, and theirs "
-    "in turn. A published study has a theory and an experiment of how far that goes. This page "
-    "repeats the experiment, and holds the theory against it."
+    "When a triangle of a mesh is bisected at its longest edge, the neighbour across that edge has "
+    "to be bisected with it, and so on in turn. A published study has a theory and an experiment "
+    "of how far that goes. This page repeats the experiment, and holds the theory against it."
 )
 COLOPHON = (
     "Made by lepp-study. Plots by Plotly.js (MIT licence), which is part of this file: the page "

@@ -4,6 +4,7 @@ import pandas as pd
 
 from lepp import METHODS
 from reports.page.evidence import Evidence
+from reports.page.views import distribution_word
 from reports.study_page.tables import TABLE_4
 from study.paper.judging import DIFFERS
 from study.paper.published import MEAN_LEPP, REFERENCE_METHOD, SHOWN
@@ -47,7 +48,8 @@ def paper_triangulation(evidence: Evidence) -> str | None:
         )
     return (
         f"The paper's triangulations are not {listed([_name(m) for m in others.index], 'or')}: the "
-        f"mean LEPP sizes that it prints are those of {_PLAIN} ({_tests(plain)}). "
+        f"mean LEPP sizes that it prints agree with {_PLAIN} ({_tests(plain)}), which is what "
+        "CGAL's “2D Triangulation”, the package that it names, makes of points. "
         + " ".join(filter(None, (_beside(evidence, method) for method in others.index)))
     ).strip()
 
@@ -71,7 +73,8 @@ def _beside(evidence: Evidence, method: str) -> str | None:
         return None
     last = printed.iloc[-1]
     return (
-        f"{_name(method)[0].upper()}{_name(method)[1:]} of the same {last['n_points']:,} points "
-        f"have a mean of {show(last['mean_lepp'], 'fixed4')}, where the paper prints "
+        f"{_name(method)[0].upper()}{_name(method)[1:]} of this run's {last['n_points']:,} "
+        f"{distribution_word(SHOWN)} points have a mean of {show(last['mean_lepp'], 'fixed4')}, "
+        "where the paper prints "
         f"{show(last['published_mean'], 'fixed4')}."
     )

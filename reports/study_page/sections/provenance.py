@@ -40,13 +40,18 @@ def _repetitions(design: Design) -> str:
 
 def _design(evidence: Evidence) -> Facts:
     design = evidence.design
+    times = len(design.methods)
+    each = f", each point set {times} times" if times > 1 else ""
     facts = [
         ("Triangulation", listed([METHODS[name].word for name in design.methods])),
         ("Distributions", listed([distribution_word(d) for d in design.distributions])),
         ("Numbers of points", _sizes(design.sizes)),
         ("Repetitions", _repetitions(design)),
         ("Seed", str(design.seed)),
-        ("Triangulations", f"{design.n_triangulations:,} of {design.n_points:,} points in all"),
+        (
+            "Triangulations",
+            f"{design.n_triangulations:,} of {design.n_points:,} points in all{each}",
+        ),
     ]
     if "bivariate_normal" in design.distributions:
         facts.append(

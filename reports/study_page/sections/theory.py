@@ -87,7 +87,8 @@ def _premise(evidence: Evidence, view: View) -> list[str] | None:
         f"need less: if every step ends a path with a chance of at least {LEAST_P_TEXT}, which may "
         "differ from step to step, then at most (2/3)ʲ of the paths go on for j steps after "
         f"their second triangle, the mean is at most 2 + 2/3 + (2/3)² + … = {MOST_MEAN:g}, and the "
-        f"standard deviation at most √{MOST_SD**2:g}. {_every_step(evidence, view)} "
+        f"standard deviation at most √{MOST_SD**2:g}, for no law of such chances varies more than "
+        f"that of 1/3 throughout. {_every_step(evidence, view)} "
         f"{_bounds_hold(rows)}",
     ]
 
@@ -108,17 +109,19 @@ def _every_step(evidence: Evidence, view: View) -> str:
 
 
 def _of_the_edge(evidence: Evidence, view: View, least: pd.Series) -> str:
-    """Say that the least chance to end is an effect of the edge, if the interior's is higher."""
+    """Say of the interior what its least chance to end is, if that is higher."""
     inside = sure(evidence.rows(CONTINUATION, view, part=INTERIOR).frame)
     if inside.empty:
         return ""
     lowest = inside.loc[inside["rate"].idxmax()]
     if not 1 - lowest["high"] > least["lowest_high"]:
         return ""
+    where = "The edge of the mesh has a part in it: in the interior,"
+    if 1 - lowest["low"] < LEAST_P:
+        where = f"It is higher in the interior, but below {LEAST_P_TEXT} there as well:"
     return (
-        " That is the edge of the mesh: in the interior, at "
-        f"{lowest['n_points']:,} points, the least is {show(1 - lowest['rate'], 'fixed4')}, at "
-        "size "
+        f" {where} at {lowest['n_points']:,} points, the least is "
+        f"{show(1 - lowest['rate'], 'fixed4')}, at size "
         f"{lowest['lepp_size']}, as far as the chances there are known (up to size "
         f"{inside['lepp_size'].max()})."
     )

@@ -20,7 +20,8 @@ DEFINITIONS: dict[str, frozenset[str]] = {
             "Its bounds need less: if every step ends a path with a chance of at least 1/3, "
             "which may differ from step to step, then at most (2/3)ʲ of the paths go on for j "
             "steps after their second triangle, the mean is at most 2 + 2/3 + (2/3)² + … = 4, "
-            "and the standard deviation at most √6.",
+            "and the standard deviation at most √6, for no law of such chances varies more than "
+            "that of 1/3 throughout.",
             "Its size is the number of triangles on it.",
             "No bound holds for all meshes: in a strip whose edges grow from one end to the "
             "other, the first triangle's path covers everything, and the mean is (n + 1) / 2.",

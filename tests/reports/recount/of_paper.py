@@ -361,7 +361,8 @@ def which_triangulation(v: View, s: Sheet, k: int) -> str:
         )
     return (
         "The paper's triangulations are not Delaunay triangulations: the mean LEPP sizes that it "
-        f"prints are those of {_PLAIN} {numbers('incremental')}."
+        f"prints agree with {_PLAIN} {numbers('incremental')}, which is what CGAL's "
+        "“2D Triangulation”, the package that it names, makes of points."
     )
 
 
@@ -371,12 +372,12 @@ def no_delaunay(v: View, s: Sheet, k: int) -> str:
     return f"A user of CGAL would expect Delaunay triangulations, which this run {has} to compare."
 
 
-@recount("key-figures", "Delaunay triangulations of the same")
+@recount("key-figures", "Delaunay triangulations of this run's")
 def beside_delaunay(v: View, s: Sheet, k: int) -> str:
     groups = v.run.groups("delaunay", _SHOWN)
     printed = {1000 * row[0]: row[3] for row in table_4(v.run)}
     n = max(set(groups) & set(printed))
     return (
-        f"Delaunay triangulations of the same {s(n)} points have a mean of {s(groups[n].mean())}, "
-        f"where the paper prints {s(printed[n])}."
+        f"Delaunay triangulations of this run's {s(n)} uniform points have a mean of "
+        f"{s(groups[n].mean())}, where the paper prints {s(printed[n])}."
     )

@@ -320,7 +320,8 @@ def table_5(v: View, s: Sheet, k: int) -> str:
 def table_3(v: View, s: Sheet, k: int) -> str:
     below, rejected, groups = normality(*v.key)
     return (
-        f"The groups are normal | {'no' if rejected else 'not rejected'} | {s(below)} of "
+        "The data within each group are nearly normal | "
+        f"{'no' if rejected else 'not rejected'} | {s(below)} of "
         f"{s(groups)} groups below 0.05, where {s(0.05 * groups)} would be by chance; "
         f"{s(rejected)} after Holm's correction"
     )
@@ -357,7 +358,9 @@ def figure_5(v: View, s: Sheet, k: int) -> str:
 @recount("statement Figure 6")
 def figure_6(v: View, s: Sheet, k: int) -> str:
     means = {n: g.mean() for n, g in v.run.groups(v.method, v.distribution).items()}
-    return _grows(v, s, "The mean LEPP size grows with the number of points", means, 1)
+    return _grows(
+        v, s, "The mean LEPP size has a very weak upward trend with the number of points", means, 1
+    )
 
 
 @recount("statement Table 6")

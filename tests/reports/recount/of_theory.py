@@ -377,7 +377,14 @@ def every_step(v: View, s: Sheet, k: int) -> str:
     )
 
 
-@recount("types", "That is the edge of the mesh")
+def _higher(most: float) -> str:
+    """Whether the interior keeps to a third where the edge does not, as far as is known."""
+    if most < 1 / 3:
+        return "It is higher in the interior, but below 1/3 there as well:"
+    return "The edge of the mesh has a part in it: in the interior,"
+
+
+@recount("types", "(It is higher in the interior|The edge of the mesh has)")
 def of_the_edge(v: View, s: Sheet, k: int) -> str:
     least = least_chance(v.key)
     n, rates = continuation(*v.key, INTERIOR)  # type: ignore[misc]
@@ -387,9 +394,9 @@ def of_the_edge(v: View, s: Sheet, k: int) -> str:
     if not ended - half > premise_by_size(*v.key)[least[2]][3]:  # type: ignore[index]
         return "The interior's least is not known to be higher."
     return (
-        f"That is the edge of the mesh: in the interior, at {s(n)} points, the least is "
-        f"{s(ended)}, at size {s(rates.sizes[at])}, as far as the chances there are known (up to "
-        f"size {s(rates.sizes[number - 1])})."
+        f"{_higher(ended + half)} at {s(n)} points, the least is {s(ended)}, at size "
+        f"{s(rates.sizes[at])}, as far as the chances there are known (up to size "
+        f"{s(rates.sizes[number - 1])})."
     )
 
 
@@ -577,7 +584,7 @@ def strips(v: View, s: Sheet, k: int) -> str:
     )
 
 
-@recount("statement Theorem 1")
+@recount("statement Premise of Theorem 1")
 def premise_of_theorem_1(v: View, s: Sheet, k: int) -> str:
     start = (
         "Every step of a path ends with the same probability p, and so the sizes are geometric: "
@@ -609,7 +616,7 @@ def premise_of_theorem_1(v: View, s: Sheet, k: int) -> str:
     )
 
 
-@recount("statement Theorem 2", "The probability p")
+@recount("statement Premise of Theorem 2", "The probability p")
 def premise_of_theorem_2(v: View, s: Sheet, k: int) -> str:
     shares_by_size = [share_c(v, n).mean() for n in v.run.sizes]
     word = all_of([word for word, *_ in premise_by_size(*v.key).values()])

@@ -292,7 +292,7 @@ def test_the_geometric_law(shares, words):
 
 # Theorem 2's premise, at the edge
 
-EDGE = " That is the edge of the mesh: in the interior, at 8,000 points, the least is "
+EDGE = " The edge of the mesh has a part in it: in the interior, at 8,000 points, the least is "
 
 
 def premise(inside: list, groups: list) -> str:
@@ -321,6 +321,15 @@ def test_the_least_chance_to_end_is_of_the_edge_where_the_interior_has_more(high
     )
     assert (f"{EDGE}{words}" in text) == told
     assert (EDGE in text) == told
+
+
+@pytest.mark.parametrize(("ended", "below"), [(0.327, True), (0.329, False)])
+def test_an_interior_below_a_third_is_no_excuse(ended, below):
+    # The interval is 0.005 to either side.
+    text = premise(rates("interior", {2: 0.52, 3: 1 - ended}), [group(8000, NO, 0.29, high=0.295)])
+    words = " It is higher in the interior, but below 1/3 there as well: at 8,000 points, the least"
+    assert (words in text) == below
+    assert (EDGE in text) != below
 
 
 @pytest.mark.parametrize("inside", [[], rates("interior", INSIDE, rough=(2,))])

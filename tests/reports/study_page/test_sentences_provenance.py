@@ -89,7 +89,9 @@ def test_design():
     assert facts["Distributions"] == "uniform and exponential"
     assert facts["Repetitions"] == "40 point sets for each distribution and size"
     assert facts["Seed"] == "7"
-    assert facts["Triangulations"] == (f"{triangulations} of {2 * 2 * 15_000 * 40:,} points in all")
+    assert facts["Triangulations"] == (
+        f"{triangulations} of {2 * 2 * 15_000 * 40:,} points in all, each point set 2 times"
+    )
     assert "Correlation of x and y" not in facts
 
 

@@ -121,7 +121,7 @@ def test_published_means_bear_out_the_published_statements(paper_study):
     for statement in (
         "means of the groups differ",
         "variances of the groups differ",
-        "grows with the number of points",
+        "upward trend with the number of points",
         "varies less from mesh to mesh",
         "logarithmic one has the highest",
         "below 4 and above 2",
