@@ -48,8 +48,8 @@ def paper_triangulation(evidence: Evidence) -> str | None:
         )
     return (
         f"The paper's triangulations are not {listed([_name(m) for m in others.index], 'or')}: the "
-        f"mean LEPP sizes that it prints agree with {_PLAIN} ({_tests(plain)}), which is what "
-        "CGAL's “2D Triangulation”, the package that it names, makes of points. "
+        f"mean LEPP sizes that it prints agree with {_PLAIN} ({_tests(plain)}). That is what the "
+        "package makes that the paper names, CGAL's “2D Triangulation”. "
         + " ".join(filter(None, (_beside(evidence, method) for method in others.index)))
     ).strip()
 

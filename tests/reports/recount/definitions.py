@@ -41,6 +41,7 @@ DEFINITIONS: dict[str, frozenset[str]] = {
             "have only certain p-values.",
             "The whole mesh and its interior have one limit, as long as the edge's share of the "
             "triangles falls faster than its mean grows.",
+            "That is what the package makes that the paper names, CGAL's “2D Triangulation”.",
             "Theorem 1 takes the chance to end to be the same at every step, and makes all "
             "four moments out of it.",
             "Theorem 2 supposes p ≥ 1/3 and, with Theorem 1, the same p at every step.",

@@ -361,8 +361,7 @@ def which_triangulation(v: View, s: Sheet, k: int) -> str:
         )
     return (
         "The paper's triangulations are not Delaunay triangulations: the mean LEPP sizes that it "
-        f"prints agree with {_PLAIN} {numbers('incremental')}, which is what CGAL's "
-        "“2D Triangulation”, the package that it names, makes of points."
+        f"prints agree with {_PLAIN} {numbers('incremental')}."
     )
 
 
