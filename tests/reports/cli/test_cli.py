@@ -11,7 +11,8 @@ from click.testing import CliRunner
 from distributed import Client, LocalCluster
 from tiny_runs import store_run
 
-from reports.cli.main import Duration, main
+from reports.cli.main import main
+from reports.cli.parameters import Duration
 from study.design.design import Design
 from study.results.store import Store, load
 from study.run.local import LocalWorkers
