@@ -60,14 +60,17 @@ def _repetitions(number: int | tuple[int, ...]) -> str:
 def paper_entry(paper: Citation) -> str:
     """BibTeX entry of the paper; its DOI only where that has been confirmed."""
     fields = {
-        "author": " and ".join(paper.authors),
+        "author": " and ".join(
+            f"{family}, {author.removesuffix(family).strip()}"
+            for author, family in zip(paper.authors, paper.family_names, strict=True)
+        ),
         "title": f"{{{paper.title}}}",
         "booktitle": paper.venue,
         "year": str(paper.year),
     }
     if paper.doi_confirmed:
         fields["doi"] = paper.doi
-    return _entry("inproceedings", f"{_key(paper.authors[0])}{paper.year}", fields)
+    return _entry("inproceedings", f"{_key(paper.family_names[0])}{paper.year}", fields)
 
 
 def paper_in_words(paper: Citation) -> str:
@@ -75,8 +78,8 @@ def paper_in_words(paper: Citation) -> str:
     return f"{' and '.join(paper.authors)}, “{paper.title}” ({paper.venue.split(',')[0]})"
 
 
-def _key(author: str) -> str:
-    plain = unicodedata.normalize("NFKD", author.split()[-1].lower())
+def _key(family_name: str) -> str:
+    plain = unicodedata.normalize("NFKD", family_name.lower())
     return re.sub("[^a-z]", "", plain)
 
 

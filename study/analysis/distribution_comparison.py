@@ -36,7 +36,7 @@ DISTRIBUTIONS_COMPARED = Declaration(
         Column("distribution_2", "Second distribution", "", "name"),
         Column("mean_1", "First mean", "triangles", "fixed4"),
         Column("mean_2", "Second mean", "triangles", "fixed4"),
-        Column("difference", "Second - first", "triangles", "fixed4"),
+        Column("difference", "Second less first", "triangles", "fixed4"),
         Column("relative", "Relative difference", "", "percent3"),
         Column("low", f"{LEVEL} from", "", "percent3"),
         Column("high", f"{LEVEL} to", "", "percent3"),

@@ -30,7 +30,7 @@ METHODS_COMPARED = Declaration(
         Column("pairs", "Point sets", "", "int"),
         Column("mean_1", "First mean", "", "g5"),
         Column("mean_2", "Second mean", "", "g5"),
-        Column("difference", "Second - first", "", "g4"),
+        Column("difference", "Second less first", "", "g4"),
         Column("low", f"{LEVEL} from", "", "g4"),
         Column("high", f"{LEVEL} to", "", "g4"),
         Column("correlation", "Correlation of the pairs", "", "fixed2"),
@@ -54,11 +54,11 @@ GROWTH = Declaration(
         _SECOND,
         Column("slope_1", "First, by doubling", "triangles", "g3"),
         Column("slope_2", "Second, by doubling", "triangles", "g3"),
-        Column("difference", "Second - first", "triangles", "g3"),
+        Column("difference", "Second less first", "triangles", "g3"),
         Column("low", f"{LEVEL} from", "triangles", "g3"),
         Column("high", f"{LEVEL} to", "triangles", "g3"),
     ),
-    note="Slopes of the logarithmic model, d of c + d log2(x), over the point sets that both "
+    note="Slopes of the logarithmic model, d of c + d log₂(x), over the point sets that both "
     "methods have triangulated; the difference is the slope of the paired differences, with "
     "its t interval by least squares with errors that allow for unequal variances (HC3).",
 )

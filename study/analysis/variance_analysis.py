@@ -31,8 +31,8 @@ ANOVA = Declaration(
         Column("effect_low", f"{LEVEL} from", "", "fixed3"),
         Column("effect_high", f"{LEVEL} to", "", "fixed3"),
     ),
-    note="H0: all groups have the same mean LEPP size. The classical test supposes equal "
-    "variances, Welch's does not, Kruskal-Wallis compares ranks (p from its χ² limit). "
+    note="Tested is whether all groups have the same mean LEPP size. The classical test supposes "
+    "equal variances, Welch's does not, Kruskal-Wallis compares ranks (p from its χ² limit). "
     "Effect sizes are shares of the variance between triangulations that the number of points "
     "accounts for: they belong to the design, since other sizes, or more of some, give others; "
     "η² is the sample's, ω² corrects its bias; their intervals come from "

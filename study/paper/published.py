@@ -81,6 +81,8 @@ class Citation:
     ----------
     authors : tuple of str
         Given name first.
+    family_names : tuple of str
+        Of each author, all of them.
     title, venue : str
     year : int
     doi : str
@@ -91,6 +93,7 @@ class Citation:
     """
 
     authors: tuple[str, ...]
+    family_names: tuple[str, ...]
     title: str
     venue: str
     year: int
@@ -113,6 +116,7 @@ def _citation() -> Citation:
     printed = _document()["citation"]
     return Citation(
         tuple(printed["authors"]),
+        tuple(printed["family_names"]),
         printed["title"],
         printed["venue"],
         printed["year"],

@@ -12,7 +12,7 @@ MINUS = "−"
 SPACE = "\u00a0"  # no line ends inside a number
 TIMES = f"{SPACE}×{SPACE}"
 
-_RAISED = str.maketrans("0123456789+-=()/abcdkmnptx", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾ᐟᵃᵇᶜᵈᵏᵐⁿᵖᵗˣ")
+_RAISED = str.maketrans("0123456789+-=()/abcdkmnpstx", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻⁼⁽⁾ᐟᵃᵇᶜᵈᵏᵐⁿᵖˢᵗˣ")
 _NUMBER = r"-?\d+(?:\.\d+)?"
 
 Rule = tuple[re.Pattern[str], str | Callable[[re.Match[str]], str]]

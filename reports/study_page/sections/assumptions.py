@@ -74,8 +74,8 @@ def _assumptions(evidence: Evidence, view: View) -> list[str] | None:
         sentences.append(
             f"Shapiro-Wilk gives p below {SIGNIFICANCE} in {none_or(below)} of "
             f"{count(len(shapiro), 'group')}; by chance alone it would in "
-            f"{show(SIGNIFICANCE * len(shapiro), 'fixed1')}. {AFTER_HOLM} {none_or(rejected)} "
-            f"{'is' if rejected < 2 else 'are'} rejected as normal"
+            f"{show(SIGNIFICANCE * len(shapiro), 'fixed1')}. {AFTER_HOLM} "
+            f"normality is rejected in {none_or(rejected)}"
             + ("." if rejected else ", which does not show that they are normal.")
         )
     return sentences or None

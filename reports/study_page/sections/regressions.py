@@ -322,7 +322,9 @@ def _panel(evidence: Evidence, view: View, part: str, which: str) -> style.Panel
     if means.empty or not traces:
         return None
     low, high = _heights(means["mean_lepp"], curves if which == PREDICTION else curves[:0])
-    sizes = list(curves["n_points"]) if which == PREDICTION else evidence.design.sizes
+    # Of all panels, so that all are logarithmic or none.
+    every = evidence.rows(CURVES, view, view=which)["n_points"]
+    sizes = list(every) if which == PREDICTION else evidence.design.sizes
     scores = evidence.rows(MODEL_SCORES, view, part=part)
     if which == PREDICTION and not scores.empty:
         end = scores.first["fitted_up_to"]

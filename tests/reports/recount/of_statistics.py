@@ -103,8 +103,8 @@ def shapiro(v: View, s: Sheet, k: int) -> str:
 def shapiro_holm(v: View, s: Sheet, k: int) -> str:
     rejected = normality(*v.key)[1]
     if rejected:
-        return f"{HOLM} {s(rejected)} {plural(rejected, 'is', 'are')} rejected as normal."
-    return f"{HOLM} {s(0)} is rejected as normal, which does not show that they are normal."
+        return f"{HOLM} normality is rejected in {s(rejected)}."
+    return f"{HOLM} normality is rejected in {s(0)}, which does not show that they are normal."
 
 
 @recount("figure-qq", "The ")

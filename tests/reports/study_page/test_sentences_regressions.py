@@ -1,6 +1,7 @@
 """What the report says of models and limits, on runs whose truth is known."""
 
 import re
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -11,9 +12,10 @@ from made_runs import DESIGN, drawn, page, page_text, run
 from statsmodels.regression.linear_model import OLS
 
 from reports.study_page.sections.limit import trend_sentence
-from reports.study_page.sections.regressions import _heights
+from reports.study_page.sections.regressions import _figure, _heights
 from study.analysis import limits, model_scores, regressions
 from study.analysis.limits import EDGE_LIMITS, LIMIT_VERDICTS
+from study.analysis.regressions import PREDICTION
 from study.text.numbers import listed
 
 
@@ -365,3 +367,21 @@ def test_a_run_of_one_size_says_nothing():
     for part in ("fits", "projections", "table-7"):
         assert said.prose(part) == ""
     assert said.finding("figure-models") == ""
+
+
+def test_panels_of_one_figure_have_one_kind_of_axis():
+    # The interior is judged at fewer sizes than the whole, over a factor of less than 50.
+    text = grown("saturating", "level")
+    (block,) = (
+        block for block in text.blocks("fits") if getattr(block, "id", "") == "figure-projections"
+    )
+    evidence = text.evidence
+    curves = evidence.tables["curves"]
+    of_interior = curves.frame["part"] == "interior"
+    small = curves.frame["n_points"] < curves.frame["n_points"].max() / 20
+    changed = replace(curves, frame=curves.frame[~(of_interior & small)])
+    evidence = replace(evidence, tables=evidence.tables.adding(changed))
+    block = _figure(evidence, block.id, block.title, "Figure 7", PREDICTION)
+    layout = block.specs["incremental/uniform"]["layout"]
+    kinds = [axis.get("type") for name, axis in layout.items() if name.startswith("xaxis")]
+    assert kinds == ["log", "log"]

@@ -198,8 +198,8 @@ def test_normal_groups(name):
         .prose("assumptions")
         .endswith(
             f"Shapiro-Wilk gives p below 0.05 in {none.get(below, below)} of 4 groups; by "
-            f"chance alone it would in 0.2. {HOLM} {none.get(rejected, rejected)} "
-            f"{'is' if rejected < 2 else 'are'} rejected as normal"
+            f"chance alone it would in 0.2. {HOLM} normality is rejected in "
+            f"{none.get(rejected, rejected)}"
             + ("." if rejected else ", which does not show that they are normal.")
         )
     )

@@ -48,8 +48,8 @@ def test_the_entry_of_a_report_names_what_it_takes_to_make_it_again() -> None:
 
 def test_the_entry_of_the_paper_has_its_doi_only_where_that_is_confirmed() -> None:
     entry = paper_entry(replace(CITATION, doi="10.1/a_b", doi_confirmed=True))
-    assert entry.startswith("@inproceedings{huayta2020,\n")
-    assert "author = {Oliver-Amadeo Vilca Huayta and María-Cecilia Rivara}" in entry
+    assert entry.startswith("@inproceedings{vilcahuayta2020,\n")
+    assert "author = {Vilca Huayta, Oliver-Amadeo and Rivara, María-Cecilia}" in entry
     assert "year = {2020}" in entry
     assert "doi = {10.1/a_b}" in entry
     assert "doi" not in paper_entry(replace(CITATION, doi_confirmed=False))
