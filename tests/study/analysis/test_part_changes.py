@@ -1,5 +1,7 @@
 """How the means of the parts change, and the layers before the interior, counted by hand."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from frames import design, frames
@@ -8,7 +10,9 @@ from statsmodels.stats.multitest import multipletests
 from statsmodels.stats.weightstats import CompareMeans, DescrStatsW
 
 from lepp import INTERIOR_LAYER
+from study.analysis import part_changes
 from study.analysis.analyse import analyse
+from study.analysis.building import Study
 
 SIZES = (1000, 2000, 4000, 8000, 16000)
 KEY = ["method", "distribution"]
@@ -18,7 +22,7 @@ KEY = ["method", "distribution"]
 def run():
     asked = design(sizes=SIZES)
     results, histograms, regions, layers, sets = frames(asked)
-    layers = layers.assign(count=layers["count"].clip(lower=0))
+    layers = layers[layers["count"] > 0]
     # The layers at the hull become one of the last before the interior, and the one before those.
     layer = layers["layer"].replace({0: 23})
     layers = layers.assign(layer=layer.where(layer != 1, 24 + layers["replicate"] % 6))
@@ -100,3 +104,19 @@ def test_without_an_interior_there_is_nothing_to_hold_them_against(run):
     tables = analyse(results[results["replicate"] < 1], histograms, regions, few, sets, asked)
     assert tables["last_layers"].frame.empty
     assert tables["part_changes"].frame.empty
+
+
+def test_several_that_are_held_against_it_are_corrected_for(monkeypatch):
+    p = {"uniform": 0.03, "exponential": 0.04}
+
+    def rows(study, method, distribution):
+        yield {"method": method, "distribution": distribution, "p": p[distribution]}
+
+    monkeypatch.setattr(part_changes, "_last_layers", rows)
+    keys = [("incremental", name) for name in p]
+    study = Study(SimpleNamespace(populations=keys), {})
+    (table,) = part_changes.last_layers.make(study)
+    assert table.frame["same_mean"].tolist() == ["not rejected", "not rejected"]
+    p["uniform"] = 0.02
+    (table,) = part_changes.last_layers.make(study)
+    assert table.frame["same_mean"].tolist() == ["rejected", "rejected"]

@@ -1,9 +1,11 @@
 """The verdict on a limit, by data whose truth is known."""
 
 from collections import Counter
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy import stats
 
 from study.statistics import models
 from study.statistics.groups import Groups, NotEnough
@@ -17,6 +19,7 @@ from study.statistics.limit_verdict import (
     ROUGH,
     SEVERAL,
     LimitVerdict,
+    _verdict,
     candidates,
     combined,
     judge,
@@ -115,6 +118,24 @@ def test_a_mean_that_falls_without_end_has_a_limit_since_no_path_is_empty(name):
         assert np.isnan(one.limit.estimate)
         assert one.limit.low == -np.inf
         assert means[-1] - 0.001 < one.limit.high < means[-3]
+    seen = made(curve, 0)
+    error = np.sqrt(seen.variances[-1])
+    end = judge(seen, PUBLISHED).limit.high
+    assert end == pytest.approx(seen.means[-1] + stats.t.ppf(0.975, seen.df) * error)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "expected"),
+    [
+        (-0.02, -0.01, (YES, BOUNDED)),
+        (-0.02, 0.01, (UNDECIDED, SEVERAL)),
+        (0.01, 0.02, (UNDECIDED, SEVERAL)),
+    ],
+)
+def test_only_a_mean_that_surely_falls_is_bounded(low, high, expected):
+    power = SimpleNamespace(power=ProfileInterval(0.0, -1.0, 1.0))
+    left = tuple(SimpleNamespace(model=one) for one in (models.LOGARITHMIC, models.EDGE))
+    assert _verdict(left, power, ProfileInterval((low + high) / 2, low, high)) == expected
 
 
 def test_a_falling_mean_that_no_model_follows_is_undecided():
