@@ -52,6 +52,8 @@ _TICK_FORMATS = [
 _POWERS = range(-20, 21)
 #: Factor beyond which a linear axis squeezes the smaller sizes together.
 _WIDE = 50
+#: Width of a bar on a logarithmic axis, as a share of its number of points.
+_BAR = 0.3
 #: What a logarithmic axis of numbers of points may have a label at, within each power of ten.
 _STEPS = ((1, 2, 5), (1, 3), (1,))
 #: Steps between the labels of an axis of shares.
@@ -158,6 +160,17 @@ def number_of_points(
     ticks = _ticks(low, high, _MOST_LABELS // columns)
     labels = [thousands(tick) for tick in ticks]
     return axis(title, type="log", tickvals=ticks, ticktext=labels, tickformatstops=[], **more)
+
+
+def bar_widths(drawn: Iterable[int], sizes: Iterable[int]) -> list[float] | None:
+    """Widths of bars that look alike on the `number_of_points` axis of all sizes.
+
+    None where that is linear: Plotly's own are.
+    """
+    seen = list(sizes)
+    if not seen or max(seen) <= _WIDE * min(seen):
+        return None
+    return [_BAR * size for size in drawn]
 
 
 def _ticks(low: int, high: int, most: int) -> list[int]:

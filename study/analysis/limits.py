@@ -68,7 +68,8 @@ LIMIT_VERDICTS = Declaration(
     note=f"{ONE_LIMIT}. Yes or no: the whole or the interior says so, and the other does not say "
     "the opposite; where both say yes, the intervals of their limits overlap. Undecided otherwise. "
     "The limit is the mean of the interior where that is level, else that of the whole mesh, and "
-    "of the interior if only that has one. All of it is among the models that are tried here.",
+    "of the interior if only that has one; where only models with a limit decide, the ends are the "
+    "furthest of both parts. All of it is among the models that are tried here.",
 )
 
 LIMIT_EVIDENCE = Declaration(

@@ -235,7 +235,8 @@ def combined(whole: LimitVerdict | None, interior: LimitVerdict | None) -> OneLi
     OneLimit
         Yes or no if one part says so, and the other does not say the opposite; no two limits may
         exclude each other. The limit that is stated is the interior's where it is level, else that
-        of the whole, if it is known on both sides.
+        of the whole, if it is known on both sides. Where only models with a limit decide, its ends
+        are the furthest of both parts.
     """
     parts = [part for part in (whole, interior) if part is not None]
     of_limits = sorted(
@@ -247,7 +248,7 @@ def combined(whole: LimitVerdict | None, interior: LimitVerdict | None) -> OneLi
     if (of_limits and growing) or (len(limits) == 2 and _apart(*limits)):
         return OneLimit(UNDECIDED, CONTRADICTION)
     if of_limits:
-        return OneLimit(YES, of_limits[0].reason, tuple(of_limits), limits[0])
+        return OneLimit(YES, of_limits[0].reason, tuple(of_limits), _spanned(of_limits))
     if growing:
         return OneLimit(NO, GROWTH, growing)
     return OneLimit(UNDECIDED, parts[0].reason)
@@ -332,6 +333,16 @@ def _limit(means: SizeMeans, survivors: tuple[Candidate, ...], reason: str) -> P
             continue
     return ProfileInterval(
         limits[0].estimate, min(one.low for one in limits), max(one.high for one in limits)
+    )
+
+
+def _spanned(parts: list[LimitVerdict]) -> ProfileInterval | None:
+    limit = parts[0].limit
+    if limit is None or parts[0].reason != LIMIT:
+        return limit
+    same = [part.limit for part in parts if part.reason == LIMIT and part.limit is not None]
+    return ProfileInterval(
+        limit.estimate, min(one.low for one in same), max(one.high for one in same)
     )
 
 

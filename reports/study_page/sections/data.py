@@ -72,7 +72,7 @@ def _shape(name: str, correlation: float) -> str:
         "normal": "the normal ones are a round cloud about the origin",
         "bivariate_normal": (
             f"the bivariate normal ones are a cloud stretched by a correlation of {correlation:g}, "
-            "which is assumed here, as the paper names none"
+            "assumed here, as the paper names none"
         ),
         "exponential": "the exponential ones crowd into the corner at the origin",
     }[name]

@@ -161,8 +161,10 @@ def _reach(evidence: Evidence, view: View) -> str | None:
     interval = f"{LEVEL} from {show(row['low'], 'fixed4')} to {show(row['high'], 'fixed4')}"
     off = show(row["difference"], "fixed4")
     if row["same_mean"] == REJECTED:
+        side = "above" if row["difference"] > 0 else "below"
         return (
-            f"{opening}, that of the interior and {off} ({interval}; {p_is(row['log10_p'])}): of "
+            f"{opening}, {show(abs(row['difference']), 'fixed4')} {side} that of the interior "
+            f"(difference {interval}; {p_is(row['log10_p'])}): of "
             f"{view.distribution_word} points the edge, or what the density of the points has to "
             "do with it, reaches further, and some of it is in what is called the interior here."
         )

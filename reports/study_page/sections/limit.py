@@ -16,11 +16,12 @@ from study.analysis.limits import (
     ONE_LIMIT,
     REASONS,
 )
-from study.analysis.model_scores import MODEL_SCORES, SURVIVES
+from study.analysis.model_scores import MODEL_SCORES, REFUTED, SURVIVES
 from study.analysis.parts import INTERIOR, WHOLE
 from study.analysis.variance_analysis import ANOVA, WELCH
 from study.statistics.limit_verdict import BOUNDED, CONTRADICTION, NONE_FITS, ROUGH
 from study.statistics.limit_verdict import LEVEL as IS_LEVEL
+from study.statistics.models import THICKENING_EDGE
 from study.statistics.thresholds import LEVEL_PER_DECADE, SIGNIFICANCE
 from study.statistics.verdicts import NO, YES
 from study.text.numbers import count, listed, p_is, show
@@ -132,16 +133,16 @@ def _limit_of(row: pd.Series, evidence: Evidence, view: View) -> str:
     )
     if row["reason"] == REASONS[IS_LEVEL]:
         return (
-            f": {_MEAN_OF[of]} is level, for it changes by no more than "
-            f"{show(LEVEL_PER_DECADE, 'g1')} with each tenfold number of points from "
-            f"{_part(evidence, view, of)['smallest']:,} on; the limit is {limit}."
+            f": {_MEAN_OF[of]} is level, as far as the data reach, for a constant survives, and it "
+            f"changes by no more than {show(LEVEL_PER_DECADE, 'g1')} with each tenfold number of "
+            f"points from {_part(evidence, view, of)['smallest']:,} on; the limit is {limit}."
         )
     scores = evidence.rows(MODEL_SCORES, view, part=of, standing=SURVIVES).frame
     with_limit = scores[scores["has_limit"] == YES]
     tried = count(len(evidence.rows(MODEL_SCORES, view, part=of)), "model")
-    whose = "" if of == WHOLE else " for the interior"
+    whose = "the whole mesh" if of == WHOLE else "the interior"
     return (
-        f", among the {tried} tried: all that have none are out{whose}, and "
+        f", among the {tried} tried: all that have none are out for {whose}, and "
         f"{_with_p(with_limit)}. The limit is {limit}."
     )
 
@@ -234,9 +235,12 @@ def _edge_check(evidence: Evidence, view: View) -> str | None:
     if row is None:
         return None
     if row["level"] != YES:
+        model = evidence.one(MODEL_SCORES, view, part=WHOLE, model=THICKENING_EDGE.name)
+        if model is None or model["standing"] == REFUTED:
+            return None
         return (
-            "The interior is not level, so that its mean is no limit to hold the edge model's "
-            f"{show(row['limit'], 'fixed4')} against."
+            "No constant survives for the interior, so that its mean is no limit to hold the "
+            f"thickening edge's {show(row['limit'], 'fixed4')} against."
         )
     differ = "No difference is seen" if row["agrees"] == YES else "The two differ"
     return (

@@ -34,6 +34,7 @@ from study.analysis.regressions import (
     REGRESSIONS,
     WEIGHTED,
 )
+from study.analysis.table import Rows
 from study.analysis.trends import PUBLISHED_UP_TO
 from study.statistics.models import LINEAR_MODELS, MODELS
 from study.statistics.thresholds import REFUTED_BELOW
@@ -153,6 +154,12 @@ def _scores(evidence: Evidence, view: View) -> list[str] | None:
         if smallest > first:
             of = f"{of} from {smallest:,} points on"
         behind = rows["model"][rows["standing"] == BEHIND].tolist()
+        if paragraphs and not _fitted_alike(rows, evidence.rows(MODEL_SCORES, view, part=WHOLE)):
+            row = rows.first
+            of = (
+                f"{of}, fitted up to {row['fitted_up_to']:,} points to predict "
+                f"{count(row['predicted'], 'larger size')}"
+            )
         sentences.append(f"For {of}, {_which(left)}{_behind(behind)} and {_refuted(refuted)}.")
         if struck:
             sentences.append(
@@ -162,6 +169,11 @@ def _scores(evidence: Evidence, view: View) -> list[str] | None:
         worst = _worst(evidence, view, part)
         paragraphs.append(" ".join([*sentences, worst] if worst else sentences))
     return paragraphs or None
+
+
+def _fitted_alike(one: Rows, other: Rows) -> bool:
+    ends = [(rows.first["fitted_up_to"], rows.first["predicted"]) for rows in (one, other)]
+    return ends[0] == ends[1]
 
 
 def _which(left: list[str]) -> str:

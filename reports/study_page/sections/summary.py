@@ -237,10 +237,10 @@ def _statements(evidence: Evidence, view: View) -> list[str] | None:
         for key, word, of_one in (
             (YES, "hold", "holds"),
             (NO, "do not", "does not"),
-            (UNDECIDED, *2 * (UNDECIDED,)),
-            (NOT_REJECTED, *2 * (NOT_REJECTED,)),
-            (NOT_SHOWN, *2 * (NOT_SHOWN,)),
-            (NOT_TESTED, *2 * (NOT_TESTED,)),
+            *(
+                (word, f"are {word}", f"is {word}")
+                for word in (UNDECIDED, NOT_REJECTED, NOT_SHOWN, NOT_TESTED)
+            ),
         )
         if key in holds
     ]

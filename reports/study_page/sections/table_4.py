@@ -140,6 +140,7 @@ def _differences(evidence: Evidence, view: View) -> style.Panel:
     bars = style.bars(
         x=rows.column("n_points"),
         y=rows.column("difference"),
+        width=style.bar_widths(rows["n_points"], evidence.design.sizes),
         name="difference",
         showlegend=False,
         marker={"color": style.SERIES[0]},

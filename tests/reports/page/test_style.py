@@ -1,5 +1,6 @@
 """Axes and series of plots: where labels stand, and that no two series look alike."""
 
+import numpy as np
 import pytest
 
 from reports.page import style
@@ -32,6 +33,16 @@ def test_an_axis_is_linear_up_to_a_factor_of_50():
     assert style.number_of_points((10_000, 500_000)).get("type") is None
     assert style.number_of_points((10_000, 500_001))["type"] == "log"
     assert style.number_of_points(()).get("type") is None
+
+
+def test_bars_look_alike_on_either_axis():
+    assert style.bar_widths([10, 20], [10, 20, 500]) is None
+    assert style.bar_widths([], []) is None
+    drawn = np.array([10, 20, 501])
+    widths = np.array(style.bar_widths(drawn, drawn))
+    ends = np.log(drawn + widths / 2) - np.log(drawn - widths / 2)
+    np.testing.assert_allclose(ends, ends[0])
+    assert 0.1 < ends[0] < np.log(2)
 
 
 def test_a_fixed_axis_ends_with_the_sizes():

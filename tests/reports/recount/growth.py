@@ -474,6 +474,10 @@ def one_limit(run: Run, method: str, distribution: str) -> OneLimit | None:
         level = INTERIOR in yes and judged[INTERIOR][1] == "the mean is level"
         known = [one for one in yes if not np.isnan(yes[one][0])] or list(yes)
         part = INTERIOR if level else known[0]
+        only = "only models with a limit survive"
+        same = [one for p, one in yes.items() if judged[p][1] == only]
+        if judged[part][1] == only:
+            yes[part] = yes[part][0], min(e[1] for e in same), max(e[2] for e in same)
         return OneLimit("yes", judged[part][1], part, yes[part])
     if no:
         return OneLimit("no", judged[no[0]][1], no[0])

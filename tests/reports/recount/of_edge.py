@@ -155,7 +155,8 @@ def reach(v: View, s: Sheet, k: int) -> str:
     start = f"Layers 24 to 29, the last before the interior, have a mean of {s(mean)} together"
     if p[key] < 0.05:
         return (
-            f"{start}, that of the interior and {s(off.mean())} ({interval}; "
+            f"{start}, {s(abs(off.mean()))} {'above' if off.mean() > 0 else 'below'} that of the "
+            f"interior (difference {interval}; "
             f"{s.p_is(_log10_p(off), 1e-5)}): of {v.word} points the edge, or what the density of "
             "the points has to do with it, reaches further, and some of it is in what is called "
             "the interior here."

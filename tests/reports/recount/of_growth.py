@@ -44,8 +44,9 @@ def _with_a_limit(found: OneLimit, key: tuple, it: str, s: Sheet) -> str:
         value, low, high = found.limit or (np.nan,) * 3
         start = 1000 * means(*key, found.part).x[0]
         return (
-            f"{it} has a limit: {_MEAN_OF[found.part]} is level, for it changes by no more than "
-            f"0.001 with each tenfold number of points from {s(start)} on; the limit is "
+            f"{it} has a limit: {_MEAN_OF[found.part]} is level, as far as the data reach, for a "
+            "constant survives, and it changes by no more than 0.001 with each tenfold "
+            f"number of points from {s(start)} on; the limit is "
             f"{s(value)} (95 % from {s(low)} to {s(high)})."
         )
     scored, left = scores(*key, found.part), survivors(*key, found.part)
@@ -60,10 +61,10 @@ def _with_a_limit(found: OneLimit, key: tuple, it: str, s: Sheet) -> str:
         for name, one in scored.items()
         if name in left and MODELS[name][1]
     ]
-    whose = "" if found.part == WHOLE else " for the interior"
+    whose = "the whole mesh" if found.part == WHOLE else "the interior"
     return (
         f"{it} has a limit, among the {s(len(scored))} models tried: all that have none are "
-        f"out{whose}, and the {_models(names)}."
+        f"out for {whose}, and the {_models(names)}."
     )
 
 
@@ -156,11 +157,16 @@ def limit_itself(v: View, s: Sheet, k: int) -> str:
     return f"The limit is {s(value, near)} (95 % from {s(low, near)} to {s(high, near)})."
 
 
-@recount("limit", "The interior is not level")
+@recount("limit", "No constant survives for the interior")
 def not_level(v: View, s: Sheet, k: int) -> str:
     limit, *_ = edge_limit(v.key) or (np.nan,)
-    is_not = "is not level, so that its mean is no limit" if level_mean(v.key) is None else "is"
-    return f"The interior {is_not} to hold the edge model's {s(limit)} against."
+    model = scores(*v.key, WHOLE)["thickening edge"]
+    if level_mean(v.key) is not None or model.refuted:
+        return "There is nothing to say of the interior."
+    return (
+        "No constant survives for the interior, so that its mean is no limit to hold the "
+        f"thickening edge's {s(limit)} against."
+    )
 
 
 def _larger_half(groups: Groups) -> Groups:
@@ -286,6 +292,15 @@ def which_survive(v: View, s: Sheet, k: int) -> str:
     smallest = 1000 * means(*v.key, part).x[0]
     if smallest > min(v.run.groups(v.method, v.distribution, part)):
         of = f"{of} from {s(smallest)} points on"
+    seen = [means(*v.key, each) for each in (WHOLE, part)]
+    kept = [fitted_sizes(each) for each in seen]
+    ends = [
+        (1000 * each.x[at].max(), int((~at).sum())) for each, at in zip(seen, kept, strict=True)
+    ]
+    if ends[0] != ends[1]:
+        up_to, left_out = ends[1]
+        sizes = plural(left_out, "larger size", "larger sizes")
+        of = f"{of}, fitted up to {s(up_to)} points to predict {s(left_out)} {sizes}"
     return f"For {of}, {which} and {gone}."
 
 

@@ -187,7 +187,7 @@ def statements(v: View, s: Sheet, k: int) -> str:
         for key, one, more in (
             ("yes", "holds", "hold"),
             ("no", "does not", "do not"),
-            *((word, word, word) for word in others),
+            *((word, f"is {word}", f"are {word}") for word in others),
         )
         if key in words
     ]

@@ -70,10 +70,10 @@ def test_whose_the_trend_is(curves, spread, words):
 @pytest.mark.parametrize(
     ("verdict", "words"),
     [
-        ("rejected", "3.0652 together, that of the interior and −0.0416 (95 % from −0.0500 to "
-            "−0.0300; p = 0.0010): of uniform points the edge, or what the density of the points "
-            "has to do with it, reaches further, and some of it is in what is called the interior "
-            "here."),
+        ("rejected", "3.0652 together, 0.0416 below that of the interior (difference 95 % from "
+            "−0.0500 to −0.0300; p = 0.0010): of uniform points the edge, or what the "
+            "density of the points has to do with it, reaches further, and some of it is in what "
+            "is called the interior here."),
         ("not rejected", "3.0652 together, which is not shown to differ from that of the interior "
             "(by −0.0416, 95 % from −0.0500 to −0.0300): no reach of the edge beyond them is "
             "seen."),

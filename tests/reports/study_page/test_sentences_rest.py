@@ -380,7 +380,7 @@ def test_statements_are_counted():
         for verdict, word, one in (
             ("yes", "hold", "holds"),
             ("no", "do not", "does not"),
-            ("not tested", "not tested", "not tested"),
+            ("not tested", "are not tested", "is not tested"),
         ):
             n = counts.get(verdict, 0)
             words = re.findall(rf"\b{n} {one if n == 1 else word}\b", said)
@@ -394,7 +394,7 @@ def test_one_statement_holds_and_one_does_not():
     frame = table.frame.assign(holds=holds)
     changed = replace(kept, tables=kept.tables.adding(replace(table, frame=frame)))
     said = PageText(changed).prose("statements")
-    assert "method: 1 holds, 1 does not and 13 undecided." in said
+    assert "method: 1 holds, 1 does not and 13 are undecided." in said
 
 
 def test_worst_case_and_points():

@@ -178,7 +178,7 @@ def test_what_theorem_2_supposes(groups, words):
          "method: 1 holds and 1 does not."),
         ((YES, YES, NO, NO), "2 hold and 2 do not."),
         ((UNDECIDED, NOT_REJECTED, NOT_SHOWN, NOT_TESTED, NOT_TESTED),
-         f"1 {UNDECIDED}, 1 {NOT_REJECTED}, 1 {NOT_SHOWN} and 2 {NOT_TESTED}."),
+         f"1 is {UNDECIDED}, 1 is {NOT_REJECTED}, 1 is {NOT_SHOWN} and 2 are {NOT_TESTED}."),
     ],
 )  # fmt: skip
 def test_statements_are_counted_by_verdict(verdicts, words):

@@ -377,6 +377,18 @@ def test_two_parts_have_one_verdict(whole, interior, verdict, reason, limit):
     assert said == ({verdict} if verdict != UNDECIDED else set())
 
 
+def test_the_interval_of_a_limit_is_of_both_parts_that_only_models_decide():
+    other = part(YES, LIMIT, 3.1, 3.0, 3.2)
+    both = combined(LIMIT_PART, other).limit
+    assert (both.estimate, both.low, both.high) == (3.05, 2.95, 3.2)
+    both = combined(other, LIMIT_PART).limit
+    assert (both.estimate, both.low, both.high) == (3.1, 2.95, 3.2)
+    for whole, interior in ((LIMIT_PART, FALLING_PART), (LIMIT_PART, OPEN_PART)):
+        assert combined(whole, interior).limit == LIMIT_PART.limit
+    assert combined(LIMIT_PART, LEVEL_PART).limit == LEVEL_PART.limit
+    assert combined(FALLING_PART, FALLING_PART).limit.high == 3.2
+
+
 def test_of_two_limits_the_whole_is_stated_unless_the_interior_is_level():
     assert combined(LIMIT_PART, part(YES, LIMIT, 3.0, 2.9, 3.1)).limit.estimate == 3.05
     assert combined(part(YES, LEVEL, 3.05, 2.9, 3.1), LEVEL_PART).limit.estimate == 3.0
