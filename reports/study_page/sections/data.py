@@ -71,8 +71,8 @@ def _shape(name: str, correlation: float) -> str:
         "uniform": "the uniform ones fill the unit square",
         "normal": "the normal ones are a round cloud about the origin",
         "bivariate_normal": (
-            f"the bivariate normal ones are a cloud stretched by a correlation of {correlation:g}, "
-            "assumed here, as the paper names none"
+            f"the bivariate normal ones are a cloud stretched by a correlation of {correlation:g} "
+            "(assumed, as the paper names none)"
         ),
         "exponential": "the exponential ones crowd into the corner at the origin",
     }[name]

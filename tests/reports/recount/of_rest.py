@@ -259,7 +259,7 @@ def points(v: View, s: Sheet, k: int) -> str:
         "uniform": "the uniform ones fill the unit square",
         "normal": "the normal ones are a round cloud about the origin",
         "bivariate_normal": "the bivariate normal ones are a cloud stretched by a correlation of "
-        f"{v.run.design['correlation']:g}, which is assumed here, as the paper names none",
+        f"{v.run.design['correlation']:g} (assumed, as the paper names none)",
         "exponential": "the exponential ones crowd into the corner at the origin",
     }
     each = listed([words[d] for d in v.run.distributions])
