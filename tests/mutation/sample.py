@@ -36,12 +36,13 @@ LIBRARIES = (
     "pandas", "pydantic", "statsmodels.api", "statsmodels.stats.oneway",
 )  # fmt: skip
 #: cosmic-ray's operators that make a plausible slip of the pen. The others (an identity test of
-#: numbers, a shift of floats, a kernel without its decorator) are noticed by any call, or by none.
+#: numbers, a shift of floats, a kernel without its decorator) are noticed by any call, or by none;
+#: of comparisons a bound and a negation, as PIT has them: `==` is nobody's slip for `<=`.
 SLIPS = {
     "arithmetic": "Add_Sub Add_Mul Sub_Add Mul_Add Mul_Div Div_Mul FloorDiv_Mul Mod_FloorDiv "
     "Mod_Mul Pow_Mul RShift_LShift LShift_RShift BitOr_BitAnd BitOr_BitXor BitAnd_BitOr "
     "BitXor_BitOr",
-    "comparison": "Eq_NotEq Eq_LtE Eq_GtE NotEq_Eq NotEq_Lt NotEq_Gt Lt_LtE Lt_GtE LtE_Lt LtE_Gt "
+    "comparison": "Eq_NotEq NotEq_Eq Lt_LtE Lt_GtE LtE_Lt LtE_Gt "
     "Gt_GtE Gt_LtE GtE_Gt GtE_Lt Is_IsNot IsNot_Is",
     "unary": "USub_UAdd Delete_USub Delete_Not",
     "other": "AddNot ReplaceTrueWithFalse ReplaceFalseWithTrue ReplaceAndWithOr ReplaceOrWithAnd "
@@ -80,13 +81,15 @@ def functions_of(source):
 
 
 def left_alone(source, functions):
-    """Ranges of annotations and decorators, and of the functions named."""
+    """Ranges of annotations, decorators and `strict` of zip, and of the functions named."""
     notes = []
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.FunctionDef) and node.name in functions:
             notes.append(node)
         notes += [getattr(node, "annotation", None), getattr(node, "returns", None)]
         notes += getattr(node, "decorator_list", [])
+        if isinstance(node, ast.keyword) and node.arg == "strict":
+            notes.append(node.value)
     return [
         ((n.lineno, n.col_offset), (n.end_lineno, n.end_col_offset)) for n in notes if n is not None
     ]

@@ -225,7 +225,7 @@ def test_a_citation_is_copied(open_report: Open) -> None:
     box.get_by_role("button", name="Copy").click()
     text = page.evaluate("navigator.clipboard.readText()")
     assert text == box.locator("pre").inner_text()
-    assert text.startswith("@inproceedings{huayta2020,")
+    assert text.startswith("@inproceedings{vilcahuayta2020,")
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
