@@ -90,9 +90,9 @@ class Candidate:
     fit: Score
     prediction: Score
     aic: float
-    refuted_below: float = REFUTED_BELOW
-    struck_out: bool = False
-    contains_one_that_stands: bool = False
+    refuted_below: float
+    struck_out: bool
+    contains_one_that_stands: bool
 
     @property
     def refuted(self) -> bool:

@@ -2,8 +2,11 @@
 
 import numpy as np
 import pytest
+from frames import design, frames
 from scipy import stats
 from test_group_assumptions import values_of
+
+from study.analysis.analyse import analyse
 
 
 def test_t_tests_are_scipys(study):
@@ -21,6 +24,19 @@ def test_t_tests_are_scipys(study):
         corrected = min(expected.pvalue * len(frame), 1)
         assert 10**row.log10_p_bonferroni == pytest.approx(corrected, rel=1e-6, abs=0)
         assert (row.verdict == "rejected") == (corrected < 0.05)
+
+
+def test_groups_that_do_not_vary_have_no_test():
+    asked = design(distributions=("uniform",))
+    results, *others = frames(asked)
+    least = results["n_points"].min()
+    level = results["mean_lepp"].where(results["n_points"] != least, 3.0625)
+    tables = analyse(results.assign(mean_lepp=level), *others, asked)
+    sizes = sorted(set(results["n_points"]))
+    assert sorted(set(tables["bounds"].frame["n_points"])) == sizes[1:]
+    missing = tables["missing"].frame
+    told = missing[missing["what"].str.startswith("t tests")]["why"].tolist()
+    assert told == [f"{least} points: two or more differing triangulations are needed, there is 1"]
 
 
 def test_published_p_values_follow_from_the_published_means(paper_study):

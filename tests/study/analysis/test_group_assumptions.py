@@ -46,7 +46,19 @@ def test_shapiro_of_three_values_has_a_closed_form():
 def test_holm_corrects_within_method_and_distribution(study):
     frame = study[2]["shapiro"].frame
     for _, family in frame.groupby(["method", "distribution"]):
-        np.testing.assert_allclose(family["p_holm"], multipletests(family["p"], method="holm")[1])
+        rejected, adjusted, *_ = multipletests(family["p"], method="holm")
+        np.testing.assert_allclose(family["p_holm"], adjusted)
+        words = ["rejected" if one else "not rejected" for one in rejected]
+        assert family["normal"].tolist() == words
+
+
+def test_a_group_that_is_not_normal_is_rejected():
+    asked = design(distributions=("uniform",), repetitions=8)
+    results, *others = frames(asked)
+    far = (results["replicate"] == 0) & (results["n_points"] == results["n_points"].max())
+    results = results.assign(mean_lepp=results["mean_lepp"].where(~far, 9.0))
+    frame = analyse(results, *others, asked)["shapiro"].frame
+    assert frame["normal"].tolist() == ["not rejected"] * 3 + ["rejected"]
 
 
 def test_qq_pairs_sorted_scores_with_normal_quantiles(study):

@@ -192,6 +192,13 @@ def test_least_squares_is_for_the_four_models_of_the_paper_and_the_whole(study):
     assert {"edge", "thickening edge", "doubly logarithmic"} <= set(weighted["model"])
 
 
+def test_curves_go_on_beyond_the_largest_size_by_a_factor(study):
+    curves = find(study[2], "curves", model="logarithmic", view="prediction")
+    seen = study[1][0]["n_points"]
+    assert curves["n_points"].min() == seen.min()
+    assert curves["n_points"].max() == 10 * seen.max()
+
+
 def test_curves_pass_through_the_fits(study):
     c, d = coefficients(study[2], "logarithmic", "least squares")
     curve = find(study[2], "curves", model="logarithmic", view="least squares")

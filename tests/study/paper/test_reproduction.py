@@ -1,5 +1,7 @@
 """Verdicts on the published numbers: by results that reproduce them, and by results that do not."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -8,7 +10,7 @@ from scipy import stats
 from statsmodels.regression.linear_model import OLS
 
 from study.analysis.analyse import analyse
-from study.paper import judging, published
+from study.paper import judging, published, reproduction
 from study.paper.scoreboard import _together
 
 
@@ -295,3 +297,20 @@ def test_numbers_are_printed_as_in_the_paper():
     assert printed[:5] == ["3.054", "7.535e-05", "3.049", "0.000205", "-6.19e-07"]
     assert published.Number(7, "x", -6.19e-7, 2, scientific=True).unit == pytest.approx(1e-9)
     assert published.table_4()[2][0].printed == "59971.50"
+
+
+@pytest.mark.parametrize(
+    ("printed", "corrected", "verdict"),
+    [
+        (7.5, "agrees", "misprint"),
+        (7.5, "differs", "differs"),
+        (0.15, "differs", "close"),
+        (-0.15, "agrees", "misprint"),
+    ],
+)
+def test_a_misprint_differs_only_as_it_is_printed(printed, corrected, verdict):
+    judged = reproduction._misprint(
+        judging.Judgement(0.1, 0.02, 0.0, corrected, ""), SimpleNamespace(value=printed)
+    )
+    assert judged.difference == pytest.approx((0.1 - printed) / 0.02)
+    assert judged.verdict == verdict

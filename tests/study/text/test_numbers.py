@@ -10,6 +10,7 @@ from study.text.numbers import (
     p_is,
     p_value_from_log10,
     show,
+    significant,
     thousands,
 )
 
@@ -95,3 +96,16 @@ def test_words() -> None:
     assert large(999_999) == "999,999"
     assert thousands(10_000) == "10k"
     assert thousands(500) == "500"
+
+
+@pytest.mark.parametrize(
+    ("number", "text"),
+    [
+        (0.00012, "0.00012"),
+        (0.000012, "1.2 × 10⁻⁵"),
+        (120_000, "120,000"),
+        (1_200_000, "1.2 × 10⁶"),
+    ],
+)
+def test_numbers_far_from_1_are_powers_of_ten(number, text):
+    assert significant(number, 2).replace("\u00a0", " ") == text
