@@ -162,3 +162,11 @@ def test_meshes_without_an_interior():
     assert set(tables["limit_evidence"].frame["part"]) == {"whole"}
     assert not tables["missing"].frame["what"].str.contains("interior").any()
     assert isinstance(tables["limits"].frame, pd.DataFrame)
+
+
+@pytest.mark.parametrize(("repetitions", "tested"), [(1, False), (2, True)])
+def test_two_triangulations_suffice_to_hold_layers_against_the_interior(repetitions, tested):
+    asked = design(methods=("incremental",), sizes=(1000,), repetitions=repetitions)
+    table = of_uniform(analyse(*frames(asked), asked)["layer_means"].frame)
+    assert table["against_interior"].iloc[:-1].notna().tolist() == [tested] * (len(table) - 1)
+    assert pd.isna(table["against_interior"].iloc[-1])

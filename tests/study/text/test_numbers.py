@@ -96,11 +96,13 @@ def test_words() -> None:
     assert large(999_999) == "999,999"
     assert thousands(10_000) == "10k"
     assert thousands(500) == "500"
+    assert thousands(700_000) == "700k"
 
 
 @pytest.mark.parametrize(
     ("number", "text"),
     [
+        (0, "0"),
         (0.00012, "0.00012"),
         (0.000012, "1.2 × 10⁻⁵"),
         (120_000, "120,000"),
