@@ -139,3 +139,11 @@ def test_what_cannot_be_had_is_said():
     assert laws_of(tables, "whole").index.tolist() == THEOREM_1
     assert tables["continuation"].rows(part="interior").empty
     assert tables["continuation"].frame["low"].isna().all()
+
+
+def test_the_law_begins_with_the_shortest_path(both):
+    histograms, _, tables = both
+    rows = tables["law"].frame
+    assert rows["lepp_size"].tolist() == list(range(1, histograms["lepp_size"].max() + 1))
+    counts = np.bincount(histograms["lepp_size"], histograms["count"])
+    assert rows["count"].tolist() == counts[1:].tolist()
