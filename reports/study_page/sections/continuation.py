@@ -335,6 +335,7 @@ def _law(evidence: Evidence) -> FigureBlock:
         title="LEPP sizes against the geometric law",
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
-        reading="The vertical scale is logarithmic: a geometric law is a straight line.",
+        reading="All numbers of points are taken together. The vertical scale is logarithmic: a "
+        "geometric law is a straight line.",
         data=(TableBlock(LAW, "LEPP sizes and the law"),),
     )

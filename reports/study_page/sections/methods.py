@@ -263,7 +263,8 @@ def _rates(evidence: Evidence) -> FigureBlock:
         title="Termination rates by triangulation",
         specs=_by_distribution(evidence, draw),
         alternatives=_by_distribution(evidence, say),
-        reading=f"Bars are {LEVEL} intervals. Theorem 1 takes each line to be level.",
+        reading=f"All numbers of points are taken together. Bars are {LEVEL} intervals. Theorem 1 "
+        "takes each line to be level.",
         data=(
             TableBlock(
                 TERMINATION,
@@ -318,6 +319,6 @@ def _sizes(evidence: Evidence) -> FigureBlock:
         title="LEPP sizes by triangulation",
         specs=_by_distribution(evidence, draw),
         alternatives=_by_distribution(evidence, say),
-        reading="The vertical scale is logarithmic.",
+        reading="All numbers of points are taken together. The vertical scale is logarithmic.",
         data=(TableBlock(LAW, "LEPP sizes of all triangulations", follows=(DISTRIBUTION.name,)),),
     )

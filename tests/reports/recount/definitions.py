@@ -83,6 +83,7 @@ DEFINITIONS: dict[str, frozenset[str]] = {
             "The first points of the first point set of each distribution, as drawn.",
             "The last dot is the interior: layer 30 and all beyond.",
             "The scales differ; what matters is the distance between the lines of a panel.",
+            "All numbers of points are taken together.",
             "The vertical scale is logarithmic.",
             "The vertical scale is logarithmic: a geometric law is a straight line.",
             "Theorem 1 takes each line to be level.",
