@@ -150,7 +150,7 @@ def number_of_points(
     if not seen:
         return axis(title, **more)
     low, high = min(seen), max(seen)
-    wide = high > _WIDE * low
+    wide = _is_wide(seen)
     if fixed:
         ends = (math.log10(low), math.log10(high)) if wide else (low, high)
         margin = 0.03 * (ends[1] - ends[0] or ends[1])
@@ -168,9 +168,11 @@ def bar_widths(drawn: Iterable[int], sizes: Iterable[int]) -> list[float] | None
     None where that is linear: Plotly's own are.
     """
     seen = list(sizes)
-    if not seen or max(seen) <= _WIDE * min(seen):
-        return None
-    return [_BAR * size for size in drawn]
+    return [_BAR * size for size in drawn] if seen and _is_wide(seen) else None
+
+
+def _is_wide(sizes: list[int]) -> bool:
+    return max(sizes) > _WIDE * min(sizes)
 
 
 def _ticks(low: int, high: int, most: int) -> list[int]:

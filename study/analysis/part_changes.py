@@ -8,20 +8,15 @@ from scipy import stats
 
 from lepp import INTERIOR_LAYER
 from study.analysis.building import Population, Study, rows_by_population, rows_of
-from study.analysis.parts import INTERIOR, INTERIOR_NOTE, PART, PARTS
+from study.analysis.parts import INTERIOR, INTERIOR_NOTE, INTERVAL, PART, PARTS
 from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Declaration, Row
 from study.statistics.multiple_testing import holm
 from study.statistics.tails import log10_t_tail
-from study.statistics.thresholds import CONFIDENCE, LEVEL, SIGNIFICANCE
+from study.statistics.thresholds import CONFIDENCE, SIGNIFICANCE
 from study.statistics.verdicts import rejected
 
 #: The last layers before the interior, which it is held against.
 LAST_LAYERS_ARE = range(INTERIOR_LAYER - 6, INTERIOR_LAYER)
-
-_INTERVAL = (
-    Column("low", f"{LEVEL} from", "triangles", "fixed4"),
-    Column("high", f"{LEVEL} to", "triangles", "fixed4"),
-)
 
 PART_CHANGES = Declaration(
     "part_changes",
@@ -33,7 +28,7 @@ PART_CHANGES = Declaration(
         Column("from_points", "From", "points", "int"),
         Column("to_points", "To", "points", "int"),
         Column("change", "Change", "triangles", "fixed4"),
-        *_INTERVAL,
+        *INTERVAL,
         Column("p", "p", "", "p"),
     ),
     note=f"{INTERIOR_NOTE} From the smallest number of points that has one to the "
@@ -52,7 +47,7 @@ LAST_LAYERS = Declaration(
                "triangles", "fixed4"),
         Column("interior", "Mean of the interior", "triangles", "fixed4"),
         Column("difference", "Difference", "triangles", "fixed4"),
-        *_INTERVAL,
+        *INTERVAL,
         Column("p", "p", "", "p"),
         Column("log10_p", "log10 p", "", "log10p"),
         Column("same_mean", "Same mean", "", "verdict"),

@@ -8,14 +8,14 @@ from scipy import special
 
 from lepp import INTERIOR_LAYER
 from study.analysis.building import Population, Study, rows_by_population, rows_of
-from study.analysis.parts import INTERIOR, INTERIOR_NOTE, PART, PARTS, interior_shares
+from study.analysis.parts import INTERIOR, INTERIOR_NOTE, INTERVAL, PART, PARTS, interior_shares
 from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Declaration, Row
 from study.statistics.groups import NotEnough
 from study.statistics.homogeneity import homogeneity
 from study.statistics.intervals import mean_interval, ratio_of_sums
 from study.statistics.multiple_testing import holm
 from study.statistics.size_means import SizeMeans
-from study.statistics.thresholds import LEVEL, SIGNIFICANCE
+from study.statistics.thresholds import SIGNIFICANCE
 from study.statistics.verdicts import NOT_SHOWN, rejected
 
 #: Where the mean of a layer is, against that of the interior.
@@ -23,10 +23,6 @@ ABOVE, BELOW = "above", "below"
 
 _SHARE = Column("share", "Share of the triangles", "", "percent2")
 _LAYER = Column("layer", "Layer", "", "int")
-_INTERVAL = (
-    Column("low", f"{LEVEL} from", "triangles", "fixed4"),
-    Column("high", f"{LEVEL} to", "triangles", "fixed4"),
-)
 
 PART_MEANS = Declaration(
     "part_means",
@@ -39,7 +35,7 @@ PART_MEANS = Declaration(
         Column("triangulations", "Triangulations", "", "int"),
         _SHARE,
         Column("mean_lepp", "Mean LEPP", "triangles", "fixed4"),
-        *_INTERVAL,
+        *INTERVAL,
     ),
     note=f"{INTERIOR_NOTE} Each triangulation's mean counts once; one without an interior is left "
     "out. The intervals are t intervals over triangulations.",
@@ -56,7 +52,7 @@ LAYER_MEANS = Declaration(
         _SHARE,
         Column("mean_lepp", "Mean LEPP", "triangles", "fixed4"),
         Column("standard_error", "Standard error", "triangles", "g2"),
-        *_INTERVAL,
+        *INTERVAL,
         Column("against_interior", "Against the interior"),
         Column("max_lepp", "Largest LEPP", "triangles", "int"),
     ),
@@ -103,7 +99,7 @@ COMMON_MEANS = Declaration(
         Column("log10_p", "log10 p", "", "log10p"),
         Column("one_mean", "One mean", "", "verdict"),
         Column("mean_lepp", "Mean of all", "triangles", "fixed4"),
-        *_INTERVAL,
+        *INTERVAL,
         Column("largest_difference", "Largest difference", "triangles", "fixed4"),
         Column("lowest", "Lowest", "", "name"),
         Column("highest", "Highest", "", "name"),

@@ -4,10 +4,16 @@ import pandas as pd
 
 from lepp import INTERIOR_LAYER
 from study.analysis.table import Column
+from study.statistics.thresholds import LEVEL
 
 WHOLE, INTERIOR = "whole", "interior"
 PARTS = (WHOLE, INTERIOR)
 PART = Column("part", "Part of the mesh")
+#: Ends of an interval of a mean, or of a difference of means.
+INTERVAL = (
+    Column("low", f"{LEVEL} from", "triangles", "fixed4"),
+    Column("high", f"{LEVEL} to", "triangles", "fixed4"),
+)
 
 #: What the interior is, for the note of a table.
 INTERIOR_NOTE = (
