@@ -1,10 +1,12 @@
 """Figure 1 as an explorer: a small real triangulation for each view, and the paths in it."""
 
+from collections.abc import Iterator
+
 import numpy as np
 import pandas as pd
 
 import lepp
-from reports.page.views import View
+from study.analysis.building import Study, builds
 from study.analysis.table import DISTRIBUTION, METHOD, Column, Declaration, Table
 from study.design.design import Design
 from study.design.sampling import sample_points
@@ -44,32 +46,23 @@ EXPLORER_TRIANGLES = Declaration(
 )
 
 
-def explorer_tables(design: Design, views: list[View]) -> tuple[Table, Table]:
-    """Triangulate one small point set for each view.
-
-    The points are drawn like those of the study, with its seed.
-
-    Returns
-    -------
-    (Table, Table)
-        Points and triangles.
-    """
+@builds(EXPLORER_POINTS, EXPLORER_TRIANGLES)
+def explorer(study: Study) -> Iterator[Table]:
+    """Triangulate one small point set for each view, drawn as those of the study are."""
     points, triangles = [], []
-    for view in views:
-        triangulation = _triangulation(design, view)
-        points.append(_with_view(view, _points(triangulation)))
-        triangles.append(_with_view(view, _triangles(triangulation)))
-    return (
-        EXPLORER_POINTS.of_frame(pd.concat(points)),
-        EXPLORER_TRIANGLES.of_frame(pd.concat(triangles)),
-    )
+    for method, distribution in study.data.populations:
+        triangulation = _triangulation(study.data.design, method, distribution)
+        points.append(_with_view(method, distribution, _points(triangulation)))
+        triangles.append(_with_view(method, distribution, _triangles(triangulation)))
+    yield EXPLORER_POINTS.of_frame(pd.concat(points))
+    yield EXPLORER_TRIANGLES.of_frame(pd.concat(triangles))
 
 
-def _triangulation(design: Design, view: View) -> lepp.Triangulation:
+def _triangulation(design: Design, method: str, distribution: str) -> lepp.Triangulation:
     points = sample_points(
-        view.distribution, N_POINTS, 0, seed=design.seed, correlation=design.correlation
+        distribution, N_POINTS, 0, seed=design.seed, correlation=design.correlation
     )
-    return lepp.triangulate(points, method=view.method)
+    return lepp.triangulate(points, method=method)
 
 
 def _points(triangulation: lepp.Triangulation) -> pd.DataFrame:
@@ -100,7 +93,7 @@ def _triangles(triangulation: lepp.Triangulation) -> pd.DataFrame:
     )
 
 
-def _with_view(view: View, frame: pd.DataFrame) -> pd.DataFrame:
-    frame.insert(0, "distribution", view.distribution)
-    frame.insert(0, "method", view.method)
+def _with_view(method: str, distribution: str, frame: pd.DataFrame) -> pd.DataFrame:
+    frame.insert(0, "distribution", distribution)
+    frame.insert(0, "method", method)
     return frame

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from reports.page.evidence import Evidence
-from reports.study_page.explorer import explorer_tables
-from reports.study_page.tables import report_tables
+from reports.study_page.explorer import explorer
+from reports.study_page.tables import REPORT_TABLES
 from study.analysis.analyse import analyse
 from study.results import store
 
@@ -21,19 +21,14 @@ def gather(directory: Path) -> Evidence:
 
 
 def evidence_of(loaded: store.Results) -> Evidence:
-    """Analyse results, and add the report's own tables."""
-    design = loaded.design
+    """Analyse results, with the report's own tables beside."""
     tables = analyse(
         loaded["results"],
         loaded["histograms"],
         loaded["regions"],
         loaded["layers"],
         loaded["point_sets"],
-        design,
+        loaded.design,
+        more=(*REPORT_TABLES, explorer),
     )
-    evidence = Evidence(tables, design, loaded.manifest)
-    added = (
-        *report_tables(tables, loaded["results"], loaded["point_sets"], design),
-        *explorer_tables(design, evidence.views),
-    )
-    return Evidence(tables.adding(*added), design, loaded.manifest)
+    return Evidence(tables, loaded.design, loaded.manifest)

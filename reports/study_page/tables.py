@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 
 from lepp import METHODS
+from study.analysis.building import Study, builds
 from study.analysis.group_summaries import GROUPS
 from study.analysis.table import (
     DISTRIBUTION,
@@ -16,9 +17,7 @@ from study.analysis.table import (
     Declaration,
     Row,
     Table,
-    Tables,
 )
-from study.design.design import Design
 from study.design.sampling import sample_block
 from study.paper.published import MEAN_LEPP, SD_BETWEEN
 from study.paper.reproduction import REPRODUCTION
@@ -114,7 +113,7 @@ _STATEMENT = (
     Column("source", "Where"),
     Column("statement", "The paper's statement"),
 )
-_STATEMENTS_COMPARED = Declaration(
+STATEMENTS_COMPARED = Declaration(
     "statements_compared",
     "Which of the paper's statements hold for which triangulation",
     _STATEMENT,
@@ -124,45 +123,19 @@ _STATEMENTS_COMPARED = Declaration(
 def statements_compared_by(methods: Sequence[str]) -> Declaration:
     """Declare the table of the paper's statements with a column a method."""
     verdicts = [Column(name, METHODS[name].title, "", "verdict") for name in methods]
-    return replace(_STATEMENTS_COMPARED, columns=(*_STATEMENT[:-1], *verdicts, _STATEMENT[-1]))
+    return replace(STATEMENTS_COMPARED, columns=(*_STATEMENT[:-1], *verdicts, _STATEMENT[-1]))
 
 
-def report_tables(
-    tables: Tables, results: pd.DataFrame, point_sets: pd.DataFrame, design: Design
-) -> Iterator[Table]:
-    """Make the report's own tables.
-
-    Parameters
-    ----------
-    tables : Tables
-        Those of the analysis.
-    results : pandas.DataFrame
-        A row a triangulation.
-    point_sets : pandas.DataFrame
-        A row a point set.
-    design : Design
-    """
-    yield table_4(tables)
-    yield statements_compared(tables, design.methods)
-    yield TRIANGULATIONS.of_frame(_columns_of(results[results["error"].isna()], TRIANGULATIONS))
-    yield POINT_SETS.of_frame(_columns_of(point_sets, POINT_SETS))
-    yield FAILURES.of_frame(_columns_of(results[results["error"].notna()], FAILURES))
-    yield sampled_points(design)
-
-
-def _columns_of(frame: pd.DataFrame, declared: Declaration) -> pd.DataFrame:
-    return frame[declared.column_names].reset_index(drop=True)
-
-
-def table_4(tables: Tables) -> Table:
+@builds(TABLE_4, needs=(GROUPS, REPRODUCTION))
+def table_4(study: Study) -> Iterator[Table]:
     """Table 4 of every view, with the published values where there are some."""
     keys = ["method", "distribution", "n_points"]
-    groups = tables.rows(GROUPS).frame
+    groups = study.tables.rows(GROUPS).frame
     ours = groups[groups["triangulations"] > 0]
     ours = ours[[name for name in TABLE_4.column_names if name in GROUPS.column_names]]
 
     def printed(quantity: str) -> pd.DataFrame:
-        rows = tables.rows(REPRODUCTION, published_table=4, quantity=quantity)
+        rows = study.tables.rows(REPRODUCTION, published_table=4, quantity=quantity)
         return rows.frame.set_index(keys)
 
     mean, sd = printed(MEAN_LEPP), printed(SD_BETWEEN)
@@ -173,22 +146,36 @@ def table_4(tables: Tables) -> Table:
             "published_sd": sd["published"],
         }
     )
-    return TABLE_4.of_frame(_columns_of(ours.join(beside, on=keys), TABLE_4))
+    yield _of_columns(TABLE_4, ours.join(beside, on=keys))
 
 
-def statements_compared(tables: Tables, methods: tuple[str, ...]) -> Table:
+@builds(STATEMENTS_COMPARED, needs=(STATEMENTS,))
+def statements_compared(study: Study) -> Iterator[Table]:
     """Whether each statement of the paper holds, a column a method."""
-    statements = tables.rows(STATEMENTS).frame
+    statements = study.tables.rows(STATEMENTS).frame
+    methods = study.data.design.methods
     shared = [column.name for column in _STATEMENT]
     rows = statements.pivot(index=shared, columns="method", values="holds")
     order = statements[shared].drop_duplicates()
-    frame = order.join(rows[list(methods)], on=shared).reset_index(drop=True)
-    declared = statements_compared_by(methods)
-    return declared.of_frame(frame[declared.column_names])
+    yield _of_columns(statements_compared_by(methods), order.join(rows[list(methods)], on=shared))
 
 
-def sampled_points(design: Design) -> Table:
+@builds(TRIANGULATIONS, POINT_SETS, FAILURES)
+def measurements(study: Study) -> Iterator[Table]:
+    """Give what was measured of each triangulation and point set, and what failed."""
+    yield _of_columns(TRIANGULATIONS, study.data.results)
+    yield _of_columns(POINT_SETS, study.data.point_sets)
+    yield _of_columns(FAILURES, study.data.failures)
+
+
+def _of_columns(declared: Declaration, frame: pd.DataFrame) -> Table:
+    return declared.of_frame(frame[declared.column_names].reset_index(drop=True))
+
+
+@builds(SAMPLED_POINTS)
+def sampled_points(study: Study) -> Iterator[Table]:
     """Draw the first points of the first point set of each distribution (Figure 3)."""
+    design = study.data.design
     size = next((size for size in design.sizes if size >= SCATTER_POINTS), design.sizes[-1])
 
     def rows() -> Iterator[Row]:
@@ -201,4 +188,7 @@ def sampled_points(design: Design) -> Table:
             for point, (x, y) in zip(np.arange(len(points)), points, strict=True):
                 yield key | {"point": point, "x": x, "y": y}
 
-    return SAMPLED_POINTS.table(rows(), shown=min(size, SCATTER_POINTS), size=size)
+    yield SAMPLED_POINTS.table(rows(), shown=min(size, SCATTER_POINTS), size=size)
+
+
+REPORT_TABLES = (table_4, statements_compared, measurements, sampled_points)

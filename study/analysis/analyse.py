@@ -1,6 +1,6 @@
 """All tables of a study from its results."""
 
-from dataclasses import asdict
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import pandas as pd
@@ -24,19 +24,12 @@ from study.analysis import (
     variance_analysis,
     worst_case_strip,
 )
-from study.analysis.building import build
+from study.analysis.building import Builder, BuiltTables
 from study.analysis.measurements import Measurements
-from study.analysis.table import DISTRIBUTION, METHOD, Column, Declaration, Tables
 from study.paper import consistency, reproduction, runs_lattice, scoreboard, statements
 
 if TYPE_CHECKING:
     from study.design.design import Design
-
-MISSING = Declaration(
-    "missing",
-    "What could not be computed",
-    (METHOD, DISTRIBUTION, Column("what", "Not computed"), Column("why", "Why")),
-)
 
 #: In the order in which what is missing is told; who needs whom, the builders say themselves.
 BUILDERS = (
@@ -88,8 +81,9 @@ def analyse(
     layers: pd.DataFrame,
     point_sets: pd.DataFrame,
     design: "Design",
-) -> Tables:
-    """Compute every table of a study.
+    more: Iterable[Builder] = (),
+) -> BuiltTables:
+    """Return every table of a study.
 
     Parameters
     ----------
@@ -105,13 +99,15 @@ def analyse(
         A row a point set, with the p-values of its checks.
     design : Design
         What was asked for.
+    more : iterable of Builder
+        Further tables, of whoever asks.
 
     Returns
     -------
-    Tables
-        By name. A table that the results do not suffice for has the rows that can be had; the
-        table ``missing`` says what cannot, and why. The same results give the same tables.
+    BuiltTables
+        By name; each is computed when it is first asked for. A table that the results do not
+        suffice for has the rows that can be had; the table ``missing`` says what cannot, and why.
+        The same results give the same tables.
     """
     data = Measurements.of(results, histograms, regions, layers, point_sets, design)
-    tables, missing = build(BUILDERS, data)
-    return tables.adding(MISSING.table(asdict(entry) for entry in missing))
+    return BuiltTables((*BUILDERS, *more), data)

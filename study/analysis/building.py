@@ -1,14 +1,23 @@
 """How tables are built: a builder a family of tables, each with the tables that it needs."""
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
 from graphlib import TopologicalSorter
 
 import pandas as pd
 
 from study.analysis.measurements import Measurements
-from study.analysis.table import Declaration, Row, Table, Tables, UnknownNameError
+from study.analysis.table import (
+    DISTRIBUTION,
+    METHOD,
+    Column,
+    Declaration,
+    Row,
+    Table,
+    Tables,
+    UnknownNameError,
+)
 from study.statistics.groups import Groups, NotEnough
 
 
@@ -20,6 +29,13 @@ class Missing:
     distribution: str
     what: str
     why: str
+
+
+MISSING = Declaration(
+    "missing",
+    "What could not be computed",
+    (METHOD, DISTRIBUTION, Column("what", "Not computed"), Column("why", "Why")),
+)
 
 
 @dataclass(frozen=True)
@@ -166,40 +182,65 @@ def rows_by_population(
     return decorate
 
 
-def build(builders: Iterable[Builder], data: Measurements) -> tuple[Tables, list[Missing]]:
-    """Build all tables, each after those that it needs.
+class BuiltTables(Tables):
+    """The tables of a study, each made when it is first asked for, after those that it needs.
 
-    Returns
-    -------
-    tables : Tables
-    missing : list of Missing
-        In the order of the builders.
+    Parameters
+    ----------
+    builders : iterable of Builder
+        In the order in which their tables come, and what is missing is told.
+    data : Measurements
 
     Raises
     ------
     ValueError
-        If a builder does not make the tables that it declares, or two make one of a name.
+        If two builders make a table of one name; later, if one does not make what it declares.
     UnknownNameError
         If a table that is needed is built by none.
     graphlib.CycleError
         If tables need one another.
     """
-    builders = list(builders)
-    tables = Tables()
-    missing: dict[int, list[Missing]] = {}
-    for place in _in_order_of_needs(builders):
-        one = builders[place]
-        study = Study(data, tables.only(one.needs))
+
+    def __init__(self, builders: Iterable[Builder], data: Measurements) -> None:
+        super().__init__()
+        self._builders = (*builders, Builder((MISSING,), (), self._make_missing))
+        self._data = data
+        self._lacks: dict[int, list[Missing]] = {}
+        self._maker = _makers(self._builders)
+
+    def __getitem__(self, name: str) -> Table:
+        if name in self._maker and self._maker[name] not in self._lacks:
+            self._make(self._maker[name])
+        return super().__getitem__(name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._maker)
+
+    def __len__(self) -> int:
+        return len(self._maker)
+
+    def __reduce__(self) -> tuple[type[Tables], tuple[list[Table]]]:
+        return Tables, (list(self.values()),)  # what is left to make cannot be pickled
+
+    def _make(self, place: int) -> None:
+        one = self._builders[place]
+        study = Study(self._data, self.only(one.needs))
         made = list(one.make(study))
         if [table.name for table in made] != [declared.name for declared in one.makes]:
             raise ValueError(f"a builder of {[d.name for d in one.makes]} made others")
-        tables = tables.adding(*made)
-        missing[place] = study.missing
-    ordered = tables.only(made for one in builders for made in one.makes)
-    return ordered, [lack for place in sorted(missing) for lack in missing[place]]
+        self._tables.update((table.name, table) for table in made)
+        self._lacks[place] = study.missing
+
+    def _make_missing(self, _: Study) -> list[Table]:
+        for place in range(len(self._builders) - 1):
+            if place not in self._lacks:
+                self._make(place)
+        lacks = (lack for place in sorted(self._lacks) for lack in self._lacks[place])
+        return [MISSING.table(map(asdict, lacks))]
 
 
-def _in_order_of_needs(builders: list[Builder]) -> Iterable[int]:
+def _makers(builders: Sequence[Builder]) -> dict[str, int]:
+    """Return which builder makes each table, after a check of their needs."""
     names = Counter(made.name for one in builders for made in one.makes)
     if names.most_common(1)[0][1] > 1:
         raise ValueError(f"two builders make the table {names.most_common(1)[0][0]!r}")
@@ -208,4 +249,5 @@ def _in_order_of_needs(builders: list[Builder]) -> Iterable[int]:
         if need.name not in maker:
             raise UnknownNameError(f"no builder makes the table {need.name!r}")
     needed = {place: {maker[need.name] for need in one.needs} for place, one in enumerate(builders)}
-    return TopologicalSorter(needed).static_order()
+    TopologicalSorter(needed).prepare()
+    return maker

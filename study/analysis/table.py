@@ -8,7 +8,6 @@ a column that does not exist is told so at once.
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Self
 
 import numpy as np
 import pandas as pd
@@ -341,10 +340,6 @@ class Tables(Mapping[str, Table]):
         """Rows of a declared table that have the values asked for."""
         return self[declared.name].rows(**where)
 
-    def only(self, declared: Iterable[Declaration]) -> Self:
+    def only(self, declared: Iterable[Declaration]) -> "Tables":
         """Only the tables that are declared."""
-        return type(self)(self[one.name] for one in declared)
-
-    def adding(self, *tables: Table) -> Self:
-        """Copy with further tables; one of the same name takes the place of the old."""
-        return type(self)([*self.values(), *tables])
+        return Tables(self[one.name] for one in declared)

@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 
 from lepp import INTERIOR_LAYER
+from study.analysis.table import Tables
 from study.design.design import Design
 from study.run.measures import columns_of
 from study.run.point_checks import PointChecks
@@ -128,3 +129,20 @@ def failed(results, rows, error="InputError: all points lie on one line"):
     results["error"] = results["error"].astype(object)
     results.loc[rows, "error"] = error
     return results
+
+
+class adding(Tables):  # noqa: N801 - a verb where it is used
+    """Tables with some in the place of those of their names; the others are made when needed."""
+
+    def __init__(self, tables, *changed):
+        super().__init__(changed)
+        self.others = tables
+
+    def __getitem__(self, name):
+        return self._tables[name] if name in self._tables else self.others[name]
+
+    def __iter__(self):
+        return iter(dict.fromkeys((*self.others, *self._tables)))
+
+    def __len__(self):
+        return len(list(iter(self)))

@@ -23,7 +23,7 @@ from reports.study_page.sections import (
     theory,
 )
 from reports.text.citation import paper_in_words, versions
-from study.analysis.analyse import MISSING
+from study.analysis.building import MISSING
 from study.analysis.group_summaries import OVERVIEW, TRIANGULATIONS_MISSING
 from study.analysis.path_lengths import LAW_MISSING
 from study.analysis.regressions import SATURATION_MISSING

@@ -10,7 +10,7 @@ from reports.page.views import distribution_word
 from reports.study_page.tables import FAILURES
 from reports.text.citation import SOFTWARE_LICENSE, paper_entry, report_entry
 from reports.text.words import TITLE
-from study.analysis.analyse import MISSING
+from study.analysis.building import MISSING
 from study.analysis.group_summaries import OVERVIEW
 from study.analysis.table import Rows
 from study.design.design import Design

@@ -1,9 +1,12 @@
 import pandas as pd
 import pytest
+from frames import frames
 
 from lepp import METHODS
 from reports.page.views import View
-from reports.study_page.explorer import N_POINTS, explorer_tables
+from reports.study_page.explorer import N_POINTS, explorer
+from study.analysis.building import Study
+from study.analysis.measurements import Measurements
 from study.design.design import Design
 from study.design.sampling import sample_points
 
@@ -13,7 +16,8 @@ DESIGN = Design(methods=tuple(METHODS), sizes=(1000,), repetitions=1, seed=7)
 
 @pytest.fixture(scope="module")
 def tables() -> dict[str, pd.DataFrame]:
-    return {table.name: table.frame for table in explorer_tables(DESIGN, VIEWS)}
+    study = Study(Measurements.of(*frames(DESIGN), DESIGN))
+    return {table.name: table.frame for table in explorer.make(study)}
 
 
 def rows(frame: pd.DataFrame, view: View) -> pd.DataFrame:

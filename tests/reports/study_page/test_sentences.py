@@ -4,6 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from frames import adding
 from tiny_runs import DESIGN
 
 from reports.page.evidence import Evidence
@@ -29,7 +30,7 @@ def altered(evidence: Evidence, table: str, **values: object) -> Evidence:
     """Copy the evidence with columns of a table set to a value."""
     frame = evidence.tables[table].frame.assign(**values)
     changed = replace(evidence.tables[table], frame=frame)
-    return replace(evidence, tables=evidence.tables.adding(changed))
+    return replace(evidence, tables=adding(evidence.tables, changed))
 
 
 def prose(section: object, part_of: int = 0) -> str:

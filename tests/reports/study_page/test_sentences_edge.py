@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import pandas as pd
 import pytest
+from frames import adding
 from grown_runs import grown
 from made_runs import page
 
@@ -89,7 +90,7 @@ def test_whether_the_edge_reaches_into_the_interior(verdict, words):
             | {"p": 0.001, "log10_p": -3.0, "same_mean": verdict}
         ]
     )
-    changed = replace(evidence, tables=evidence.tables.adding(table))
+    changed = replace(evidence, tables=adding(evidence.tables, table))
     *_, said = edge._layers(changed, VIEW_OF)
     assert said.replace("\u00a0", " ") == (
         f"Layers 24 to 29, the last before the interior, have a mean of {words}"
@@ -117,7 +118,7 @@ def test_where_the_longest_paths_start(paths, inside, layer, of_layer, words):
     frame = table.frame.assign(
         paths=paths, interior_paths=inside, layer=layer, layer_paths=of_layer
     )
-    changed = replace(evidence, tables=evidence.tables.adding(replace(table, frame=frame)))
+    changed = replace(evidence, tables=adding(evidence.tables, replace(table, frame=frame)))
     (said,) = edge._longest(changed, VIEW_OF)
     assert said.endswith(f" the largest size of all, 20, and {words}.")
 
@@ -191,7 +192,7 @@ def test_long_paths_that_start_at_the_edge(at_edge, words):
     frame = table.frame.assign(
         paths=159, interior_paths=159 - at_edge, edge_triangles=0.0072, edge_share=at_edge / 159
     )
-    changed = replace(evidence, tables=evidence.tables.adding(replace(table, frame=frame)))
+    changed = replace(evidence, tables=adding(evidence.tables, replace(table, frame=frame)))
     (said,) = edge._longest(changed, VIEW_OF)
     assert f"points, {words} at the edge; by its share of the triangles, 0.72 %, 1.1 would." in (
         said.replace("\u00a0", " ")
@@ -206,7 +207,7 @@ def test_lines_of_long_paths_end_where_few_are_left():
     last = table.frame["lepp_size"] == table.frame["lepp_size"].max()
     for paths, left in ((100, 0), (99, 1)):
         frame = table.frame.assign(paths=table.frame["paths"].where(~last, paths))
-        changed = replace(evidence, tables=evidence.tables.adding(replace(table, frame=frame)))
+        changed = replace(evidence, tables=adding(evidence.tables, replace(table, frame=frame)))
         drawn = edge._figure_longest(changed).specs[VIEW_OF.key]["data"][0]
         rows = evidence.rows(LONGEST_PATHS, **VIEW).frame
         assert len(drawn["x"]) == len(rows) - left
@@ -255,7 +256,7 @@ def test_layers_are_named_by_what_tests_of_them_show(words, sentence, figure):
     for layer in range(INTERIOR_LAYER):
         told = words[layer] if layer < len(words) else "not shown"
         frame.loc[frame["layer"] == layer, "against_interior"] = told
-    changed = replace(evidence, tables=evidence.tables.adding(replace(table, frame=frame)))
+    changed = replace(evidence, tables=adding(evidence.tables, replace(table, frame=frame)))
     (said,) = edge._layers(changed, VIEW_OF)
     assert sentence in said
     assert figure in edge._figure_layers(changed).alternatives[VIEW_OF.key]

@@ -7,7 +7,7 @@ from reports.page.blocks import Facts, Prose
 from reports.page.evidence import Evidence
 from reports.study_page.sections import provenance
 from reports.study_page.tables import FAILURES
-from study.analysis.analyse import MISSING
+from study.analysis.building import MISSING
 from study.analysis.group_summaries import OVERVIEW
 from study.analysis.table import Tables
 from study.design.design import Design

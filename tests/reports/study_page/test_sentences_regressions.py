@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pandas as pd
 import pytest
+from frames import adding
 from grown_runs import CURVES, grown
 from made_runs import DESIGN, drawn, page, page_text, run
 from statsmodels.regression.linear_model import OLS
@@ -385,7 +386,7 @@ def test_panels_of_one_figure_have_one_kind_of_axis():
     of_interior = curves.frame["part"] == "interior"
     small = curves.frame["n_points"] < curves.frame["n_points"].max() / 20
     changed = replace(curves, frame=curves.frame[~(of_interior & small)])
-    evidence = replace(evidence, tables=evidence.tables.adding(changed))
+    evidence = replace(evidence, tables=adding(evidence.tables, changed))
     block = _figure(evidence, block.id, block.title, "Figure 7", PREDICTION)
     layout = block.specs["incremental/uniform"]["layout"]
     kinds = [axis.get("type") for name, axis in layout.items() if name.startswith("xaxis")]

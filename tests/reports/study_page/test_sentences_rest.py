@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pandas as pd
 import pytest
-from frames import design, failed
+from frames import adding, design, failed
 from made_runs import DESIGN, METHODS, page, run
 from page_text import PageText, drawn, page_text
 from scipy import stats
@@ -15,7 +15,7 @@ from scipy import stats
 from reports.page.blocks import TableBlock
 from reports.study_page import sections
 from reports.study_page.sections import agreement, methods
-from study.analysis.analyse import MISSING
+from study.analysis.building import MISSING
 from study.paper import published
 
 ONE = DESIGN.model_copy(update={"methods": ("incremental",)})
@@ -178,7 +178,7 @@ def told_with(kept, part, **frames):
     """What a part of the section says once tables have other rows."""
     tables = kept.tables
     for name, frame in frames.items():
-        tables = tables.adding(replace(tables[name], frame=frame))
+        tables = adding(tables, replace(tables[name], frame=frame))
     changed = replace(kept, tables=tables)
     return PageText(changed).prose(part)
 
@@ -242,7 +242,7 @@ def test_the_paper_is_held_against_itself():
 
     def told(verdicts):
         table = replace(kept.tables["consistency"], frame=frame.assign(verdict=verdicts))
-        return agreement.consistent(replace(kept, tables=kept.tables.adding(table)))
+        return agreement.consistent(replace(kept, tables=adding(kept.tables, table)))
 
     right = told(["consistent"] * 24)
     assert "; all of them lie in the range" in right
@@ -267,7 +267,7 @@ def test_the_sets_of_table_1_are_named():
 
     def told(fits):
         table = replace(kept.tables["runs_lattice"], frame=frame.assign(fits=fits))
-        return agreement.tested_sets(replace(kept, tables=kept.tables.adding(table)))
+        return agreement.tested_sets(replace(kept, tables=adding(kept.tables, table)))
 
     assert told("no").endswith("are not all possible for any one of the published sizes.")
     two = told(["yes"] * 2 + ["no"] * 18)
@@ -392,7 +392,7 @@ def test_one_statement_holds_and_one_does_not():
     table = kept.tables["statements"]
     holds = ["yes", "no"] + ["undecided"] * (len(table.frame) - 2)
     frame = table.frame.assign(holds=holds)
-    changed = replace(kept, tables=kept.tables.adding(replace(table, frame=frame)))
+    changed = replace(kept, tables=adding(kept.tables, replace(table, frame=frame)))
     said = PageText(changed).prose("statements")
     assert "method: 1 holds, 1 does not and 13 are undecided." in said
 

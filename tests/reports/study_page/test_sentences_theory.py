@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from frames import adding
 from made_runs import METHODS, page, run
 from page_text import PageText
 from scipy import stats
@@ -173,7 +174,7 @@ def test_one_chance_for_all_steps_is_rejected_or_not():
     kept = page("falling chance").evidence
     untested = kept.tables["path_laws"]
     untested = replace(untested, frame=untested.frame.iloc[:0])
-    changed = replace(kept, tables=kept.tables.adding(untested))
+    changed = replace(kept, tables=adding(kept.tables, untested))
     said = PageText(changed).prose("key-figures")
     assert "for all steps, which this run is too small to test. " in said
     outside = page("falling chance, no interior").prose("theorem-1")

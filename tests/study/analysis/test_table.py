@@ -97,10 +97,3 @@ def test_rows_know_where_they_stand():
     assert (value.table, value.column, value.where) == ("t", "value", {"method": "b"})
     assert (list(value), value.min(), value.max(), len(value)) == ([1 / 7, 2 / 7], 1 / 7, 2 / 7, 2)
     assert made.rows(method="c").empty
-
-
-def test_tables_are_replaced_by_name():
-    one, two = DECLARED.table([], n=0), DECLARED.table([{"n_points": 1}], n=1)
-    tables = Tables([one])
-    assert len(tables.adding(two)["t"].frame) == 1
-    assert len(tables["t"].frame) == 0

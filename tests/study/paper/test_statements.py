@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import pytest
+from frames import adding
 
 from study.analysis.building import Study
 from study.analysis.measurements import Measurements
@@ -13,7 +14,7 @@ def judged(study, table, **values):
     """Whether each statement holds once columns of a table of ours are set."""
     asked, made, tables = study
     frame = tables[table].frame.assign(**values)
-    changed = tables.adding(replace(tables[table], frame=frame))
+    changed = adding(tables, replace(tables[table], frame=frame))
     (told,) = statements.statements.make(Study(Measurements.of(*made, asked), changed))
     rows = told.rows(method="incremental", distribution="uniform")
     return dict(zip(rows["statement"], rows["holds"], strict=True))
@@ -53,7 +54,7 @@ def test_a_limit_is_what_both_parts_are_judged_to_have(study, verdict, holds):
     frame = old.frame.assign(
         has_limit=verdict, reason="as made", limit=3.1, limit_low=3.0, limit_high=3.2
     )
-    changed = tables.adding(replace(old, frame=frame))
+    changed = adding(tables, replace(old, frame=frame))
     (told,) = statements.statements.make(Study(Measurements.of(*made, asked), changed))
     rows = told.rows(method="incremental", distribution="uniform").frame.set_index("statement")
     assert rows.loc[LIMIT, "holds"] == holds
