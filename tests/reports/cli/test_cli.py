@@ -18,7 +18,12 @@ from study.results.store import Store, load
 from study.run.local import LocalWorkers
 from study.run.triangulations import TRIANGULATIONS, Triangulations
 
-SETTINGS = "sizes = [200, 400, 800]\nrepetitions = 4\nseed = 3\n"
+SETTINGS = """\
+distributions = ["uniform", "normal"]
+sizes = [200, 400, 800]
+repetitions = 4
+seed = 3
+"""
 
 
 @pytest.fixture
@@ -74,8 +79,8 @@ def test_a_run_from_the_shell_ends_with_a_report_and_a_second_computes_nothing(t
     lines = first.stdout.splitlines()
     if lines[0] == Triangulations.preparing:  # on a slow machine, or where it had to compile
         del lines[0]
-    assert lines[0] == "48 triangulations to compute, 22,400 points"
-    assert lines[-2].startswith("48 triangulations, 22,400 points, in ")
+    assert lines[0] == "24 triangulations to compute, 11,200 points"
+    assert lines[-2].startswith("24 triangulations, 11,200 points, in ")
     assert lines[-1] == f"Report: {Path('results/mine/report.html')}"
     results = tmp_path / "results" / "mine"
     assert load(results).complete
@@ -108,7 +113,7 @@ def test_failed_tasks_are_told_and_tried_again(tmp_path, config, threads, monkey
     monkeypatch.setattr(Triangulations, "perform", perform)
     result = lepp_study("run", tmp_path / "out")
     assert result.exit_code == 0, result.output
-    assert "8 triangulations to compute, 2,400 points, 40 of 48 are there" in result.output
+    assert "8 triangulations to compute, 2,400 points, 16 of 24 are there" in result.output
     assert load(tmp_path / "out").manifest["failed"] == 0
 
 
@@ -120,9 +125,9 @@ def test_a_run_of_which_every_task_fails_ends_with_the_list(tmp_path, config, th
     for _ in range(2):  # the second tries them again
         result = lepp_study("run", tmp_path / "out", "--config", config)
         assert result.exit_code == 3, result.output
-        assert "48 triangulations, 22,400 points, in" in result.output
-        assert "48 tasks failed; the same command tries them again:" in result.output
-        assert "and 43 more" in result.output
+        assert "24 triangulations, 11,200 points, in" in result.output
+        assert "24 tasks failed; the same command tries them again:" in result.output
+        assert "and 19 more" in result.output
         assert "own time" not in result.output
 
 
@@ -138,8 +143,8 @@ def test_a_failure_that_stays_ends_with_the_list_again(tmp_path, config, threads
     for _ in range(2):
         result = lepp_study("run", tmp_path / "out", "--config", config)
         assert result.exit_code == 3, result.output
-        assert "4 tasks failed" in result.output
-    assert "44 of 48 are there" in result.output
+        assert "2 tasks failed" in result.output
+    assert "22 of 24 are there" in result.output
 
 
 def test_workers_that_leave_at_the_end_are_no_failure(tmp_path, config, monkeypatch):
@@ -160,7 +165,7 @@ def test_workers_that_leave_at_the_end_are_no_failure(tmp_path, config, monkeypa
     monkeypatch.setattr("study.run.runner.connect", connect)
     result = lepp_study("run", tmp_path / "out", "--config", config)
     assert result.exit_code == 0, result.output
-    assert "48 triangulations, 22,400 points, in" in result.output
+    assert "24 triangulations, 11,200 points, in" in result.output
 
 
 @pytest.fixture
@@ -222,7 +227,7 @@ def test_an_interrupted_run_says_how_to_go_on(tmp_path, config, threads, monkeyp
     assert result.exit_code == 130
     assert "is kept in" in result.output
     assert "the same command goes on from there" in result.output
-    assert 0 < len(load(tmp_path / "out")["results"]) < 48
+    assert 0 < len(load(tmp_path / "out")["results"]) < 24
 
 
 @pytest.mark.parametrize(
