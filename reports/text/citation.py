@@ -33,10 +33,11 @@ def report_entry(title: str, design: Design, manifest: Mapping) -> str:
     """BibTeX entry of a report: what made it, and from what."""
     sizes = design.sizes
     points = f"{sizes[0]} to {sizes[-1]}" if len(sizes) > 1 else f"{sizes[0]}"
+    stops = "".join(f", {name} up to {size}" for name, size in design.largest.items())
     note = (
         f"Report ``{title}'' of lepp-study {', '.join(versions(manifest))}: seed {design.seed}; "
         f"methods {', '.join(design.methods)}; distributions {', '.join(design.distributions)}; "
-        f"{count(len(sizes), 'number')} of points, {points}; "
+        f"{count(len(sizes), 'number')} of points, {points}{stops}; "
         f"{_repetitions(design.repetitions)}"
     )
     return _entry(

@@ -85,14 +85,15 @@ def groups(one: Population) -> Iterator[Row]:
     """Make Table 4 for all methods and distributions, with both meanings of its last column."""
     done = dict(list(one.triangulations.groupby("n_points")))
     failed = select(one.data.failures, one.key)["n_points"].value_counts()
-    for size, asked in one.data.design.repetitions_by_size.items():
+    repetitions = one.data.design.repetitions_by_size
+    for size in one.data.design.sizes_of(one.method):
         group = done.get(size, one.triangulations.iloc[:0])
         lost = int(failed.get(size, 0))
         counts: Row = {
             "n_points": size,
             "triangulations": len(group),
             "failed": lost,
-            "not_run": asked - len(group) - lost,
+            "not_run": repetitions[size] - len(group) - lost,
         }
         yield counts | (_summary(group) if len(group) else {})
 
@@ -127,7 +128,8 @@ def overview(study: Study) -> Iterator[Row]:
     for method, distribution in data.populations:
         groups = study.tables.rows(GROUPS, method=method, distribution=distribution)
         done = data.triangulations(method, distribution)
-        asked = sum(data.design.repetitions_by_size.values())
+        repetitions = data.design.repetitions_by_size
+        asked = sum(repetitions[size] for size in data.design.sizes_of(method))
         failed, not_run = int(groups["failed"].sum()), int(groups["not_run"].sum())
         _name_missing_tasks(study, method, distribution, asked, failed, not_run)
         row: Row = {

@@ -38,6 +38,8 @@ DEFAULT_SEED = 2022
 _ONE_A_SIZE = "one_a_size"
 #: The error of a size that a method cannot do, as it has the whole mesh in memory.
 _IN_MEMORY = "in_memory"
+#: The error of a method that stops at no size, or when none goes to the last.
+_STOPS = "stops"
 #: The methods that can do without.
 IN_TILES = ("incremental",)
 
@@ -51,6 +53,10 @@ _ALLOWED = {
     "repetitions": (
         f"a whole number from 1 to {MAX_TRIANGULATIONS:,}, or a list with one for each of the "
         "sizes, none of which is there twice"
+    ),
+    "largest": (
+        "a table with the size at which a method stops before the others, such as "
+        "{ delaunay = 10000000 }; one method has to go to the last"
     ),
     "seed": f"a whole number from 0 to {MAX_SEED}",
     "correlation": "a number between -1 and 1, both excluded",
@@ -79,6 +85,8 @@ class Design(BaseModel):
         Numbers of points, ascending. A table ``{first, last, step}`` stands for a range.
     repetitions : int or tuple of int
         Point sets for each distribution and size: the same number for all sizes, or one a size.
+    largest : dict of str to int
+        The size at which a method stops; those that are not there do all sizes.
     seed : int
         Seed of all point sets.
     correlation : float
@@ -95,6 +103,7 @@ class Design(BaseModel):
         min_length=1
     )
     repetitions: int | tuple[int, ...]
+    largest: dict[Annotated[str, _known(METHODS)], StrictInt] = Field(default_factory=dict)
     seed: StrictInt = Field(DEFAULT_SEED, ge=0, le=MAX_SEED)
     correlation: StrictFloat = Field(0.5, gt=-1, lt=1, allow_inf_nan=False)
 
@@ -131,9 +140,20 @@ class Design(BaseModel):
         return self
 
     @model_validator(mode="after")
+    def _check_largest(self) -> Self:
+        stops = set(self.largest)
+        if not set(self.largest.values()) <= set(self.sizes[:-1]) or not stops <= set(self.methods):
+            raise PydanticCustomError(_STOPS, "largest")
+        if stops == set(self.methods):
+            raise PydanticCustomError(_STOPS, "largest")
+        return self
+
+    @model_validator(mode="after")
     def _check_in_memory(self) -> Self:
-        if self.methods != IN_TILES and max(self.sizes) > MESH_MAX_POINTS:
-            raise PydanticCustomError(_IN_MEMORY, "sizes", {"size": max(self.sizes)})
+        in_memory = [method for method in self.methods if method not in IN_TILES]
+        largest = max((self.sizes_of(method)[-1] for method in in_memory), default=0)
+        if largest > MESH_MAX_POINTS:
+            raise PydanticCustomError(_IN_MEMORY, "sizes", {"size": largest})
         return self
 
     @field_validator("sizes", mode="before")
@@ -146,6 +166,11 @@ class Design(BaseModel):
     @classmethod
     def _order_methods(cls, methods: tuple[str, ...]) -> tuple[str, ...]:
         return tuple(name for name in METHODS if name in methods)
+
+    @field_validator("largest")
+    @classmethod
+    def _order_largest(cls, largest: dict[str, int]) -> dict[str, int]:
+        return {name: largest[name] for name in METHODS if name in largest}
 
     @field_validator("distributions")
     @classmethod
@@ -164,16 +189,33 @@ class Design(BaseModel):
             return dict(zip(self.sizes, self.repetitions, strict=True))
         return dict.fromkeys(self.sizes, self.repetitions)
 
+    def methods_of(self, n_points: int) -> tuple[str, ...]:
+        """Return the methods that triangulate point sets of a size."""
+        return tuple(m for m in self.methods if n_points <= self.largest.get(m, n_points))
+
+    def sizes_of(self, method: str) -> tuple[int, ...]:
+        """Return the numbers of points that a method triangulates, ascending."""
+        return tuple(size for size in self.sizes if method in self.methods_of(size))
+
+    @property
+    def largest_of_all(self) -> int:
+        """The largest number of points that every method triangulates."""
+        return min(self.sizes_of(method)[-1] for method in self.methods)
+
+    @property
+    def _triangulations_by_size(self) -> dict[int, int]:
+        sets = self.repetitions_by_size.items()
+        return {n: len(self.distributions) * len(self.methods_of(n)) * each for n, each in sets}
+
     @property
     def n_triangulations(self) -> int:
         """Number of triangulations."""
-        return len(self.methods) * len(self.distributions) * sum(self.repetitions_by_size.values())
+        return sum(self._triangulations_by_size.values())
 
     @property
     def n_points(self) -> int:
         """Number of points of all triangulations together."""
-        points = sum(size * sets for size, sets in self.repetitions_by_size.items())
-        return len(self.methods) * len(self.distributions) * points
+        return sum(size * number for size, number in self._triangulations_by_size.items())
 
     @classmethod
     def from_settings(cls, settings: dict[str, Any], where: str = "The design") -> Self:
@@ -281,6 +323,8 @@ def _in_words(value: object) -> str:
         if len(value) > 8:
             return f"{', '.join(map(str, value[:3]))}, ..., {value[-1]} ({len(value)} values)"
         return ", ".join(map(str, value))
+    if isinstance(value, dict):
+        return ", ".join(f"{name} {one}" for name, one in value.items()) or "not set"
     return str(value)
 
 
@@ -294,7 +338,13 @@ def _sentence(where: str, error: ErrorDetails) -> str:
     if error["type"] == _IN_MEMORY:
         return (
             f"{where} has {error['ctx']['size']:,} points among its sizes, but a mesh in memory "
-            f"has at most {MESH_MAX_POINTS:,}: only methods = {list(IN_TILES)} goes without."
+            f"has at most {MESH_MAX_POINTS:,}: only {', '.join(IN_TILES)} goes without. Let the "
+            "others stop before, as in largest = { delaunay = 10000000 }."
+        )
+    if error["type"] == _STOPS:
+        return (
+            f"{where} has among its largest a method that stops at none of its sizes but the last, "
+            f"or is none of its methods, or all stop: give {_ALLOWED['largest']}."
         )
     name = str(error["loc"][0])
     if error["type"] == "extra_forbidden":

@@ -155,12 +155,13 @@ class Triangulations(Kind[Task, Design]):
 
     def size_of(self, task: Task, design: Design) -> Size:
         """Count triangulations, and the points of each."""
-        return Size(len(design.methods), len(design.methods) * task.n_points)
+        methods = len(design.methods_of(task.n_points))
+        return Size(methods, methods * task.n_points)
 
     def memory_of(self, task: Task, design: Design) -> Memory:
         """Return what the largest of its triangulations takes; they are made one by one."""
         n = task.n_points
-        each = max(lepp.METHODS[method].bytes_per_point for method in design.methods)
+        each = max(lepp.METHODS[method].bytes_per_point for method in design.methods_of(n))
         return Memory(f"A triangulation of {n:,} points", n * each)
 
     def is_at_once(self, task: Task, design: Design, memory: float) -> bool:
@@ -170,7 +171,7 @@ class Triangulations(Kind[Task, Design]):
     def least_memory_of(self, task: Task, design: Design) -> Memory:
         """Return what a job of it takes, where plain insertion alone is asked for."""
         whole = self.memory_of(task, design)
-        if design.methods != IN_TILES or whole.n_bytes <= LEAST_MEMORY:
+        if not _goes_in_tiles(task, design) or whole.n_bytes <= LEAST_MEMORY:
             return whole
         return Memory("A triangulation in tiles", LEAST_MEMORY)
 
@@ -178,14 +179,14 @@ class Triangulations(Kind[Task, Design]):
         self, task: Task, design: Design, directory: Path, memory: int
     ) -> "StagedTriangulation | None":
         """Return a plain insertion in tiles; None for other methods."""
-        if design.methods != IN_TILES:
+        if not _goes_in_tiles(task, design):
             return None
         return StagedTriangulation(task, design, directory, max(memory, LEAST_MEMORY))
 
     def prepare(self, design: Design, memory: float) -> None:
         """Compile the kernels that the design needs, or load them."""
-        largest = Task("", max(design.repetitions_by_size), 0)
-        tiles = design.methods == IN_TILES and not self.is_at_once(largest, design, memory)
+        largest = Task("", design.sizes[-1], 0)
+        tiles = _goes_in_tiles(largest, design) and not self.is_at_once(largest, design, memory)
         lepp.compile_kernels(design.methods, tiles=tiles, meshes=False)
 
     def perform(self, task: Task, design: Design) -> Outcome[Task]:
@@ -216,7 +217,7 @@ class Triangulations(Kind[Task, Design]):
         stages.end("", "check")
         rows: dict[str, list[Cells]] = {"point_sets": [values_of(checks)]}
         errors = []
-        for method in design.methods:
+        for method in design.methods_of(task.n_points):
             try:
                 made = self._triangulate(points, method, stages)
             except Exception as error:
@@ -231,7 +232,8 @@ class Triangulations(Kind[Task, Design]):
 
     def failed(self, task: Task, design: Design, error: str) -> Outcome[Task]:
         """Return a row without measures for each method."""
-        rows = [self._without_measures(method, error) for method in design.methods]
+        methods = design.methods_of(task.n_points)
+        rows = [self._without_measures(method, error) for method in methods]
         return Outcome(task, {"results": rows}, error=error)
 
     def _triangulate(
@@ -309,6 +311,11 @@ class StagedTriangulation:
         shutil.rmtree(self.directory, ignore_errors=True)
         with suppress(OSError):
             self.directory.parent.rmdir()
+
+
+def _goes_in_tiles(task: Task, design: Design) -> bool:
+    """Tell whether every method of a point set can do without the whole mesh."""
+    return design.methods_of(task.n_points) == IN_TILES
 
 
 class _Stages:

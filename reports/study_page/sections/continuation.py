@@ -115,7 +115,7 @@ def _continuation(evidence: Evidence) -> FigureBlock:
         return " ".join(
             sentence
             for sentence in (
-                f"At {_largest(evidence, rows)}, {_WHERE[part]}, the chance to go on "
+                f"At {_largest(evidence, view, rows)}, {_WHERE[part]}, the chance to go on "
                 f"{_trend(rows, _one_fits(evidence, view, part))}.",
                 _rise_at_the_edge(evidence, view) if part == INTERIOR else "",
                 _fitted(evidence, view, part),
@@ -171,10 +171,10 @@ def sure(rows: pd.DataFrame) -> pd.DataFrame:
     return rows[(rows["high"] - rows["low"] < ROUGH_RATE).cummin()]
 
 
-def _largest(evidence: Evidence, rows: pd.DataFrame) -> str:
+def _largest(evidence: Evidence, view: View, rows: pd.DataFrame) -> str:
     """Say how many points the chances are of, and why no more."""
     n_points = rows["n_points"].iloc[0]
-    if n_points == max(evidence.design.sizes):
+    if n_points == evidence.design.sizes_of(view.method)[-1]:
         return f"{n_points:,} points"
     return f"{n_points:,} points (the largest number with {ENOUGH} triangulations or more)"
 

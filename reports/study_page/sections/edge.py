@@ -92,7 +92,8 @@ def _parts(evidence: Evidence, view: View) -> list[str] | None:
     if whole.empty:
         return None
     if interior.empty:
-        return [f"{_DEFINITION} No mesh of this run is large enough to have an interior."]
+        of = f"{view.method_word} triangulation of {view.distribution_word} points"
+        return [f"{_DEFINITION} No {of} is large enough here to have an interior."]
     last = interior.last
     sentences = [
         f"{_DEFINITION} At {last['n_points']:,} points the edge has "
@@ -264,15 +265,17 @@ def _figure_parts(evidence: Evidence) -> FigureBlock:
             if rows.empty:
                 continue
             last = rows[rows["n_points"] == rows["n_points"].max()]["mean_lepp"]
-            words.append(
-                f"of {count(len(last), 'distribution')} in the "
-                f"{'whole mesh' if part == WHOLE else part} lie between "
-                f"{show(last.min(), 'fixed4')} and {show(last.max(), 'fixed4')}"
+            least, most = show(last.min(), "fixed4"), show(last.max(), "fixed4")
+            means = (
+                f"the means of {count(len(last), 'distribution')} lie between {least} and {most}"
+                if len(last) > 1
+                else f"the mean is {least}"
             )
+            words.append(f"in the {'whole mesh' if part == WHOLE else part} {means}")
         if not words:
             return None
-        largest = max(evidence.design.sizes)
-        return f"At {largest:,} points the means {', those '.join(words)}."
+        largest = evidence.design.sizes_of(view.method)[-1]
+        return f"At {largest:,} points, {listed(words)}."
 
     return FigureBlock(
         id="figure-parts",

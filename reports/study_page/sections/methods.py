@@ -66,7 +66,7 @@ def _compared(evidence: Evidence) -> Subsection:
                     "high",
                     "log10_p",
                 ),
-                where={"n_points": max(evidence.design.sizes)},
+                where={"n_points": evidence.design.largest_of_all},
             ),
             TableBlock(GROWTH, "Growth with each doubling of the points", folded=True),
         ),

@@ -41,11 +41,12 @@ def _repetitions(design: Design) -> str:
 def _design(evidence: Evidence) -> Facts:
     design = evidence.design
     times = len(design.methods)
-    each = f", each point set {times} times" if times > 1 else ""
+    each = f", each point set {times} times" if times > 1 and not design.largest else ""
+    stops = [f"{METHODS[name].word} up to {size:,}" for name, size in design.largest.items()]
     facts = [
         ("Triangulation", listed([METHODS[name].word for name in design.methods])),
         ("Distributions", listed([distribution_word(d) for d in design.distributions])),
-        ("Numbers of points", _sizes(design.sizes)),
+        ("Numbers of points", "; ".join([_sizes(design.sizes), *stops])),
         ("Repetitions", _repetitions(design)),
         ("Seed", str(design.seed)),
         (

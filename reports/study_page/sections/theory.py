@@ -33,7 +33,7 @@ from study.text.numbers import listed, show
 
 def section(evidence: Evidence) -> Section:
     """Types of neighbours and bounds, moments, the chance to go on, the worst case."""
-    largest: dict[str, object] = {"n_points": max(evidence.design.sizes)}
+    largest = evidence.design.largest_of_all
     return Section(
         "theory",
         "The theory",
@@ -55,8 +55,8 @@ def section(evidence: Evidence) -> Section:
                     Prose(per_view(evidence.views, lambda view: _theorem_1(evidence, view))),
                     TableBlock(
                         THEOREM_1,
-                        f"Theorem 1 and the measurement at {max(evidence.design.sizes):,} points",
-                        where=largest,
+                        f"Theorem 1 and the measurement at {largest:,} points",
+                        where={"n_points": largest},
                     ),
                     _moments(evidence),
                 ),

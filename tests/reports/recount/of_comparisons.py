@@ -137,7 +137,7 @@ def analogous(v: View, s: Sheet, k: int) -> str:
 
 
 def _last(run: Run, method: str) -> dict[str, float]:
-    n = max(run.sizes)
+    n = max(run.sizes_of_all)
     return {d: float(run.groups(method, d)[n].mean()) for d in run.distributions}
 
 
@@ -145,7 +145,7 @@ def _last(run: Run, method: str) -> dict[str, float]:
 def by_mean(v: View, s: Sheet, k: int) -> str:
     means = _last(v.run, v.method)
     words = [f"{s(means[d])} ({WORDS[d]})" for d in sorted(means, key=means.__getitem__)]
-    return f"At {s(max(v.run.sizes))} points the mean LEPP sizes are {listed(words)}."
+    return f"At {s(max(v.run.sizes_of_all))} points the mean LEPP sizes are {listed(words)}."
 
 
 def _each(v: View) -> list[View]:
@@ -154,7 +154,7 @@ def _each(v: View) -> list[View]:
 
 @recount("same-points", "On the same ")
 def on_the_same(v: View, s: Sheet, k: int) -> str:
-    n = max(v.run.sizes)
+    n = max(v.run.sizes_of_all)
     rows = {one.method_word: v.run.rows(one.method, v.distribution, n) for one in _each(v)}
     means = [f"{s(r['mean_lepp'].mean())} ({name})" for name, r in rows.items()]
     p = [f"{s((r['n_type_c'] / r['n_interior_longest']).mean())} ({m})" for m, r in rows.items()]
@@ -166,7 +166,7 @@ def on_the_same(v: View, s: Sheet, k: int) -> str:
 
 @recount("same-points", "(That of|Those of|Both|All)")
 def premise(v: View, s: Sheet, k: int) -> str:
-    n, below = max(v.run.sizes), []
+    n, below = max(v.run.sizes_of_all), []
     for one in _each(v):
         rows = v.run.rows(one.method, v.distribution, n)
         if (rows["n_type_c"] / rows["n_interior_longest"]).mean() < 1 / 3:

@@ -58,6 +58,13 @@ def share_by_method(v: View, s: Sheet, k: int) -> str:
     )
 
 
+@recount("parts", "No ")
+def none_has_an_interior(v: View, s: Sheet, k: int) -> str:
+    assert not v.run.groups(v.method, v.distribution, INTERIOR)
+    of = f"{v.method_word} triangulation of {v.word} points"
+    return f"No {of} is large enough here to have an interior."
+
+
 @recount("parts", "From ")
 def changes(v: View, s: Sheet, k: int) -> str:
     whole = {n: g.mean() for n, g in v.run.groups(v.method, v.distribution).items()}
@@ -197,20 +204,21 @@ def one_mean(v: View, s: Sheet, k: int) -> str:
 def spans(v: View, s: Sheet, k: int) -> str:
     words = []
     for part in (WHOLE, INTERIOR):
-        groups = {d: v.run.groups(v.method, d, part) for d in v.run.distributions}
-        n = max(max(g) for g in groups.values())
-        last = [g[n].mean() for g in groups.values() if n in g]
-        words.append(
-            f"of {s(len(last))} {plural(len(last), 'distribution')} in the "
-            f"{'whole mesh' if part == WHOLE else 'interior'} lie between {s(min(last))} and "
-            f"{s(max(last))}"
-        )
-    return f"At {s(max(v.run.sizes))} points the means {words[0]}, those {words[1]}."
+        groups = [v.run.groups(v.method, d, part) for d in v.run.distributions]
+        n = max((n for group in groups for n in group), default=0)
+        last = [group[n].mean() for group in groups if n in group]
+        where = f"in the {'whole mesh' if part == WHOLE else 'interior'}"
+        if len(last) > 1:
+            means = f"the means of {s(len(last))} distributions lie between {s(min(last))} and "
+            words.append(f"{where} {means}{s(max(last))}")
+        elif last:
+            words.append(f"{where} the mean is {s(last[0])}")
+    return f"At {s(max(v.sizes))} points, {listed(words)}."
 
 
 @recount("layers", "At ")
 def edge_of_largest(v: View, s: Sheet, k: int) -> str:
-    n = max(v.run.sizes)
+    n = max(v.sizes)
     return f"At {s(n)} points the edge has {s.percent(edge_share(*v.key, n))} of the triangles."
 
 
@@ -303,7 +311,7 @@ def _hundred(counts: pd.DataFrame) -> tuple[int, int, int] | None:
 def longest_start(v: View, s: Sheet, k: int) -> str:
     counts = long_paths(*v.key)
     size, total, at_edge = _hundred(counts)  # type: ignore[misc]
-    n = max(v.run.sizes)
+    n = max(v.sizes)
     edge = edge_share(*v.key, n)
     return (
         f"Of the {s(total)} paths of {s(size)} triangles and more at {s(n)} points, {s(at_edge)} "
@@ -341,7 +349,7 @@ def longest_by_distribution(v: View, s: Sheet, k: int) -> str:
         found = _hundred(long_paths(v.run, v.method, d))
         if found:
             size, total, at_edge = found
-            chance = total * edge_share(v.run, v.method, d, max(v.run.sizes))
+            chance = total * edge_share(v.run, v.method, d, max(v.sizes))
             words.append(
                 f"{s(at_edge)} and {s(chance)} of {s(total)} for {WORDS[d]} points (of {s(size)} "
                 "triangles and more)"

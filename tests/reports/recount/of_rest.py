@@ -25,7 +25,7 @@ from study.design.sampling import sample_points
 
 @recount("description")
 def description(v: View, s: Sheet, k: int) -> str:
-    done, sizes = v.run.results, v.run.sizes
+    done, sizes = v.run.results, v.sizes
     return (
         f"{s(len(done))} random triangulations of {s(min(sizes))} to {s(max(sizes))} points, "
         f"{s(done['n_triangles'].sum())} triangles in all: the longest-edge propagation path "
@@ -54,7 +54,7 @@ def study(v: View, s: Sheet, k: int) -> str:
 
 @recount("key-figures", "The first step of a refinement")
 def first_step(v: View, s: Sheet, k: int) -> str:
-    n = max(v.run.sizes)
+    n = max(v.sizes)
     mean = v.run.rows(v.method, v.distribution, n)["mean_lepp"].mean()
     return (
         f"The first step of a refinement, from a random triangle of {s(n)} {v.word} points "
@@ -75,7 +75,7 @@ def no_longer(v: View, s: Sheet, k: int) -> str:
 
 @recount("tile", "Mean LEPP at")
 def tile_mean(v: View, s: Sheet, k: int) -> str:
-    n = max(v.run.sizes)
+    n = max(v.sizes)
     mean, low, high = mean_interval(v.run.rows(v.method, v.distribution, n)["mean_lepp"].to_numpy())
     return f"Mean LEPP at {s(n)} points | {s(mean)} | 95 % interval {s(low)} to {s(high)}"
 
@@ -90,7 +90,7 @@ def tile_longest(v: View, s: Sheet, k: int) -> str:
 
 @recount("tile", "Chance p")
 def tile_chance(v: View, s: Sheet, k: int) -> str:
-    p, r, _, _ = off_moments(v, max(v.run.sizes))
+    p, r, _, _ = off_moments(v, max(v.sizes))
     return (
         f"Chance p that a path ends at its first step | {s(p)} | of all steps, a share of "
         f"r = {s(r)}"
@@ -99,7 +99,7 @@ def tile_chance(v: View, s: Sheet, k: int) -> str:
 
 @recount("tile", "Mean LEPP by Theorem 1")
 def tile_theorem(v: View, s: Sheet, k: int) -> str:
-    p, _, by_p, _ = off_moments(v, max(v.run.sizes))
+    p, _, by_p, _ = off_moments(v, max(v.sizes))
     off = by_p["mean"]
     return (
         f"Mean LEPP by Theorem 1 | {s((p + 1) / p)} | from p; measured is {s.percent(abs(off))} "
@@ -124,7 +124,7 @@ def tile_met(v: View, s: Sheet, k: int) -> str:
 
 
 def _pair_share(v: View) -> float:
-    rows = v.run.rows(v.method, v.distribution, max(v.run.sizes))
+    rows = v.run.rows(v.method, v.distribution, max(v.sizes))
     return float((rows["n_type_c"] / rows["n_triangles"]).mean())
 
 
@@ -200,7 +200,7 @@ def statements(v: View, s: Sheet, k: int) -> str:
 @recount("region-sizes", "In ")
 def pair_share(v: View, s: Sheet, k: int) -> str:
     return (
-        f"In {v.method_word} triangulations of {s(max(v.run.sizes))} {v.word} points, "
+        f"In {v.method_word} triangulations of {s(max(v.sizes))} {v.word} points, "
         f"{s.percent(_pair_share(v))} of the triangles stand in a terminal pair: a refinement that "
         "starts there touches nothing else."
     )
@@ -208,7 +208,7 @@ def pair_share(v: View, s: Sheet, k: int) -> str:
 
 @recount("region-sizes", "The triangles whose")
 def mean_region(v: View, s: Sheet, k: int) -> str:
-    n = max(v.run.sizes)
+    n = max(v.sizes)
     rows = v.run.rows(v.method, v.distribution, n)
     frame = v.run.counts("regions", v.method, v.distribution)
     largest = frame.loc[frame["n_points"] == n, "region_size"].max()

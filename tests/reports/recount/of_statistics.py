@@ -206,7 +206,7 @@ def largest_difference(v: View, s: Sheet, k: int) -> str:
 @cache
 def bound_tests(run: Run, method: str, distribution: str) -> dict[int, list[float]]:
     """Logarithms of p of the t tests, corrected for all tests of the run, by bound."""
-    tests = 2 * len(run.sizes) * len(run.methods) * len(run.distributions)
+    tests = 2 * sum(len(run.sizes_of(method)) for method in run.methods) * len(run.distributions)
     made: dict[int, list[float]] = {4: [], 2: []}
     for group in run.groups(method, distribution).values():
         for bound, sign in ((4, -1), (2, 1)):

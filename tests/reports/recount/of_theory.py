@@ -86,7 +86,7 @@ def _lie(offs: dict[str, float], s: Sheet, but: str = "") -> str:
 
 @recount("theorem-1", "At ")
 def theorem_1_sentence(v: View, s: Sheet, k: int) -> str:
-    n = max(v.run.sizes)
+    n = max(v.sizes)
     p, r, by_p, by_r = off_moments(v, n)
     return (
         f"At {s(n)} points, measured are, against the theorem with p = {s(p)} of the first step, "
@@ -97,7 +97,7 @@ def theorem_1_sentence(v: View, s: Sheet, k: int) -> str:
 
 @recount("key-figures", "With the chance at the first step")
 def theorem_1_in_short(v: View, s: Sheet, k: int) -> str:
-    _, _, by_p, by_r = off_moments(v, max(v.run.sizes))
+    _, _, by_p, by_r = off_moments(v, max(v.sizes))
     mean, sd = by_p["mean"], by_r["standard deviation"]
     return (
         f"With the chance at the first step, the mean is {s.percent(abs(mean))} {side(mean)} the "
@@ -189,7 +189,7 @@ def one_chance_in_short(v: View, s: Sheet, k: int) -> str:
 
 @recount("types", "At ")
 def share_of_c(v: View, s: Sheet, k: int) -> str:
-    n = max(v.run.sizes)
+    n = max(v.sizes)
     return (
         f"At {s(n)} {v.word} points the share of such neighbours, which is the chance that a path "
         f"ends at its first step, but for the few that end at the boundary there, is "
@@ -199,7 +199,7 @@ def share_of_c(v: View, s: Sheet, k: int) -> str:
 
 @recount("types", "Of all steps")
 def share_of_steps(v: View, s: Sheet, k: int) -> str:
-    r = off_moments(v, max(v.run.sizes))[1]
+    r = off_moments(v, max(v.sizes))[1]
     return f"Of all steps together, a share of r = {s(r)} ends a path."
 
 
@@ -262,7 +262,7 @@ def bounds_sentence(v: View, s: Sheet, k: int) -> str:
 
 @recount("figure-types", "At ")
 def types(v: View, s: Sheet, k: int) -> str:
-    n = max(v.run.sizes)
+    n = max(v.sizes)
     shares = [f"{s.percent(share_c(v, n, kind).mean())} of type {kind.upper()}" for kind in "abc"]
     return f"At {s(n)} points, {listed(shares)}."
 
@@ -270,7 +270,7 @@ def types(v: View, s: Sheet, k: int) -> str:
 @recount("figure-moments")
 def moments_inside(v: View, s: Sheet, k: int) -> str:
     inside = cases = 0
-    for n in v.run.sizes:
+    for n in v.sizes:
         by_p = theorem_1(float(share_c(v, n).mean()))
         rows = v.run.rows(v.method, v.distribution, n)
         for name, column in MOMENTS.items():
@@ -294,7 +294,7 @@ def going_on(v: View, s: Sheet, k: int) -> str:
     c, half, last = rates.rates[:number], rates.half[:number], rates.sizes[number - 1]
     known = "as far as it is known" if rates.n_sure > 1 else "where it is not known"
     upto = f"up to size {s(last)}, {known} to within 0.05"
-    why = "" if n == max(v.run.sizes) else " (the largest number with 16 triangulations or more)"
+    why = "" if n == max(v.sizes) else " (the largest number with 16 triangulations or more)"
     start = f"At {s(n)} points{why}, {_IN[part]}, the chance to go on"
     # Marks are set in the order of the sentence's words, whichever they are.
     ends = f"from {s.percent(c[0])} to {s.percent(c[-1])}"
@@ -444,7 +444,7 @@ def premise_of_theorem_1(v: View, s: Sheet, k: int) -> str:
         return f"{start} | not tested | the run has too few triangulations"
     n, rates = continuation(*v.key, part)  # type: ignore[misc]
     at = int(np.flatnonzero(rates.sizes == law.upto)[0])
-    largest = max(v.run.sizes)
+    largest = max(v.sizes)
     p, r, by_p, by_r = off_moments(v, largest)
 
     def are(offs: dict[str, float], but: str = "") -> str:
@@ -464,7 +464,7 @@ def premise_of_theorem_1(v: View, s: Sheet, k: int) -> str:
 
 @recount("statement Premise of Theorem 2", "The probability p")
 def premise_of_theorem_2(v: View, s: Sheet, k: int) -> str:
-    shares_by_size = [share_c(v, n).mean() for n in v.run.sizes]
+    shares_by_size = [share_c(v, n).mean() for n in v.sizes]
     word = all_of([word for word, *_ in premise_by_size(*v.key).values()])
     least = least_chance(v.key)
     seen = f"share p of type C from {s(min(shares_by_size))} to {s(max(shares_by_size))}; "

@@ -22,6 +22,11 @@ class View:
         return self.run, self.method, self.distribution
 
     @property
+    def sizes(self) -> list[int]:
+        """Numbers of points that the method goes to."""
+        return self.run.sizes_of(self.method)
+
+    @property
     def word(self) -> str:
         """The distribution in a sentence."""
         return WORDS[self.distribution]

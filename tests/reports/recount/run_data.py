@@ -150,6 +150,16 @@ class Run:
         """Numbers of points."""
         return self.design["sizes"]
 
+    def sizes_of(self, method: str) -> list[int]:
+        """Those that a method goes to."""
+        last = self.design.get("largest", {}).get(method, self.sizes[-1])
+        return [n for n in self.sizes if n <= last]
+
+    @property
+    def sizes_of_all(self) -> list[int]:
+        """Those that every method goes to."""
+        return min((self.sizes_of(method) for method in self.methods), key=len)
+
     def rows(self, method: str, distribution: str, n: int | None = None) -> pd.DataFrame:
         """Triangulations of one view, of one size if it is given."""
         frame = self.results

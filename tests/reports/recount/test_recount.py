@@ -56,6 +56,15 @@ def test_every_sentence_of_a_run_too_small_for_much_is_recounted(tmp_path: Path)
     assert outcome.unchecked == []
 
 
+def test_every_sentence_of_a_run_of_which_a_method_stops_is_recounted(tmp_path: Path) -> None:
+    stops = {"methods": ("incremental", "delaunay"), "largest": {"delaunay": SMALL.sizes[-2]}}
+    design = SMALL.model_copy(update=stops)
+    directory = store_run(tmp_path / "run", design, TRIANGULATIONS.perform)
+    outcome = recount_sentences(page_sentences(directory), Run(directory))
+    assert outcome.differing == []
+    assert outcome.unchecked == []
+
+
 def _moved(text: str, match: re.Match[str]) -> str:
     """The text with one of its numbers two units of its last digit larger."""
     digits = match[0].replace(",", "")

@@ -11,10 +11,11 @@ from playwright.sync_api import Page
 from tiny_runs import SMALL, other_orders, store_run
 
 import lepp
+from reports.page.blocks import TableBlock
 from reports.page.evidence import Evidence
 from reports.study_page.gather import gather
 from reports.study_page.page import write_report
-from reports.study_page.sections import agreement, methods, summary
+from reports.study_page.sections import agreement, methods, summary, theory
 from study.analysis.method_comparison import GROWTH, MEAN_LEPP, METHODS_COMPARED
 from study.design.design import Design
 from study.run.triangulations import TRIANGULATIONS
@@ -78,6 +79,29 @@ def test_every_other_method_is_compared_with_the_reference(
     every = "Both" if len(names) == 2 else "All"
     figure = methods.section(evidence).parts[0].blocks[1]
     assert figure.reading == f"{every} methods triangulate the same points."  # type: ignore[union-attr]
+
+
+def test_a_method_that_stops_before_the_others_lacks_nothing(tmp_path: Path) -> None:
+    names = ("incremental", "delaunay")
+    design = SMALL.model_copy(update={"methods": names, "largest": {"delaunay": 600}})
+    directory = store_run(tmp_path / "run", design, TRIANGULATIONS.perform)
+    text = write_report(directory).read_text(encoding="utf-8")
+    assert "What is missing" not in text
+    assert "200, 300, 400, 600 and 800; Delaunay up to 600" in text
+    assert "36 of 15,200 points in all<" in text
+    assert "5 numbers of points, 200 to 800, delaunay up to 600; 4 repetitions" in text
+    evidence = gather(directory)
+    blocks = [
+        block
+        for section in (theory.section(evidence), methods.section(evidence))
+        for part in section.parts
+        for block in part.blocks
+        if isinstance(block, TableBlock) and "n_points" in (block.where or {})
+    ]
+    assert len(blocks) == 2  # of one size: one that all methods have
+    for block in blocks:
+        assert not evidence.rows(block.table, **block.where).empty
+        assert block.where == {"n_points": 600}
 
 
 def test_only_the_papers_method_is_said_to_reproduce_the_paper(tmp_path: Path) -> None:

@@ -217,9 +217,9 @@ def test_figures_have_all_distributions():
     text = grown("saturating", "level")
     said = text.finding("figure-parts")
     assert said.startswith(
-        "At 2,000,000 points the means of 2 distributions in the whole mesh lie between "
+        "At 2,000,000 points, in the whole mesh the means of 2 distributions lie between "
     )
-    assert ", those of 2 distributions in the interior lie between " in said
+    assert " and in the interior the means of 2 distributions lie between " in said
     assert "begins at layer 30: uniform points, 5 (4.24); exponential points, 5 (4" in text.finding(
         "figure-layers"
     )

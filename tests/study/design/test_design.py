@@ -36,9 +36,38 @@ def test_beyond_billion_adds_two_sizes_to_the_plain_insertion_of_beyond():
     beyond, billion = map(Design.from_preset, ("beyond", "beyond-billion"))
     added = {100_000_000: 4, 1_000_000_000: 1}
     assert billion.repetitions_by_size == beyond.repetitions_by_size | added
-    assert billion.methods == ("incremental",)
-    others = {"methods", "sizes", "repetitions"}
+    assert billion.sizes_of("delaunay") == beyond.sizes
+    assert billion.sizes_of("incremental") == billion.sizes
+    assert billion.n_triangulations == beyond.n_triangulations + 4 * 5
+    assert billion.n_points == beyond.n_points + 4 * 1_400_000_000
+    others = {"sizes", "repetitions", "largest"}
     assert billion.model_dump(exclude=others) == beyond.model_dump(exclude=others)
+
+
+BOTH = {"methods": ["incremental", "delaunay"], "sizes": [10, 20, 30], "repetitions": 2}
+
+
+def test_a_method_may_stop_before_the_others():
+    design = Design.from_settings(BOTH | {"largest": {"delaunay": 20}, "distributions": ["normal"]})
+    assert design.methods_of(20) == ("incremental", "delaunay")
+    assert design.methods_of(30) == ("incremental",)
+    assert design.sizes_of("delaunay") == (10, 20)
+    assert design.sizes_of("incremental") == (10, 20, 30)
+    assert design.largest_of_all == 20
+    assert (design.n_triangulations, design.n_points) == (10, 180)
+    assert Design.from_settings(design.model_dump(mode="json")) == design
+    whole = Design.from_settings(BOTH | {"distributions": ["normal"]})
+    assert design.difference(whole) == "largest is delaunay 20 there and not set here"
+    assert whole.largest_of_all == 30
+    assert (whole.n_triangulations, whole.n_points) == (12, 240)
+
+
+def test_only_what_has_the_whole_mesh_in_memory_has_to_stop():
+    sizes = [1000, 1_000_000_000]
+    settings = BOTH | {"sizes": sizes, "repetitions": 1, "largest": {"delaunay": 1000}}
+    assert Design.from_settings(settings).n_points == 4 * (2000 + 1_000_000_000)
+    with pytest.raises(InputError, match=r"Let the others stop before, as in largest = "):
+        Design.from_settings(settings | {"largest": {"incremental": 1000}})
 
 
 def test_repetitions_go_with_their_sizes_in_any_order():
@@ -105,6 +134,16 @@ def test_every_way_of_writing_a_design_gives_the_same_one():
         (SMALL | {"distributions": ["cauchy"]}, "one or more of uniform, normal, bivariate_normal"),
         (SMALL | {"distributions": "uniform"}, "distributions = 'uniform'"),
         (SMALL | {"seed": -1}, "seed = -1, which is not allowed: give a whole number from 0"),
+        (BOTH | {"largest": {"delaunay": 30}}, "stops at none of its sizes but the last"),
+        (BOTH | {"largest": {"delaunay": 15}}, "stops at none of its sizes but the last"),
+        (SMALL | {"largest": {"delaunay": 100}}, "or is none of its methods"),
+        (
+            BOTH | {"largest": {"delaunay": 10, "incremental": 20}},
+            "or all stop: give a table with the size at which a method stops",
+        ),
+        (BOTH | {"largest": {"cgal": 10}}, "'cgal' among its largest, which is not allowed"),
+        (BOTH | {"largest": {"delaunay": "10"}}, "'10' among its largest, which is not allowed"),
+        (BOTH | {"largest": 10}, "largest = 10, which is not allowed: give a table"),
         (SMALL | {"correlation": 1}, "correlation = 1, which is not allowed: give a number betw"),
         (SMALL | {"correlation": float("nan")}, "correlation = nan"),
         (SMALL | {"repetition": 3}, "unknown setting 'repetition'; the settings are methods, dis"),

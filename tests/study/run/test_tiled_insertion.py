@@ -118,6 +118,10 @@ def test_only_plain_insertion_by_itself_is_staged(tmp_path):
     assert TRIANGULATIONS.least_memory_of(task, both).n_bytes > 100e9
     assert not TRIANGULATIONS.is_at_once(task, DESIGN, memory=1e15)  # no mesh has so many points
     assert TRIANGULATIONS.least_memory_of(task, DESIGN).n_bytes == tiled.LEAST_MEMORY
+    stops = both.model_copy(update={"largest": {"delaunay": 1000}})
+    assert TRIANGULATIONS.in_stages(task, stops, tmp_path, 10**9) is not None
+    assert TRIANGULATIONS.in_stages(Task("uniform", 1000, 0), stops, tmp_path, 10**9) is None
+    assert TRIANGULATIONS.least_memory_of(task, stops).n_bytes == tiled.LEAST_MEMORY
 
 
 @pytest.mark.cluster

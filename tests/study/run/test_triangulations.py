@@ -208,6 +208,24 @@ def test_a_third_method_goes_through(tmp_path, monkeypatch):
     assert first["n_type_b"] == measures["n_type_b"]
 
 
+def test_a_method_that_stops_leaves_out_what_is_larger(tmp_path):
+    settings = {"sizes": [40, 60], "repetitions": 1, "distributions": ["normal"]}
+    both = {"methods": ["incremental", "delaunay"]}
+    stops = Design.from_settings(settings | both | {"largest": {"delaunay": 40}})
+    small, large = TRIANGULATIONS.tasks_of(stops)
+    assert [row[0] for row in TRIANGULATIONS.perform(large, stops).rows["results"]] == [
+        "incremental"
+    ]
+    alike = TRIANGULATIONS.perform(small, Design.from_settings(settings | both))
+    assert TRIANGULATIONS.perform(small, stops).rows["results"] == alike.rows["results"]
+    assert TRIANGULATIONS.size_of(small, stops) == (2, 80)
+    assert TRIANGULATIONS.size_of(large, stops) == (1, 60)
+    assert len(TRIANGULATIONS.failed(large, stops, "no room").rows["results"]) == 1
+    plain = lepp.METHODS["incremental"].bytes_per_point
+    assert TRIANGULATIONS.memory_of(large, stops).n_bytes == 60 * plain
+    assert TRIANGULATIONS.memory_of(small, stops).n_bytes > 40 * plain
+
+
 def test_what_a_design_needs_is_compiled(monkeypatch):
     asked = []
     monkeypatch.setattr(lepp, "compile_kernels", lambda *args, **which: asked.append((args, which)))
@@ -216,8 +234,11 @@ def test_what_a_design_needs_is_compiled(monkeypatch):
     TRIANGULATIONS.prepare(plain, whole)
     TRIANGULATIONS.prepare(plain, whole - 1)
     TRIANGULATIONS.prepare(DESIGN, 1)
+    stops = {"methods": ("incremental", "delaunay"), "largest": {"delaunay": 60}}
+    TRIANGULATIONS.prepare(plain.model_copy(update=stops), whole - 1)
     assert asked == [
         ((("incremental",),), {"tiles": False, "meshes": False}),
         ((("incremental",),), {"tiles": True, "meshes": False}),
         ((tuple(METHODS),), {"tiles": False, "meshes": False}),
+        ((("incremental", "delaunay"),), {"tiles": True, "meshes": False}),
     ]
