@@ -130,6 +130,12 @@ main.add_command(mesh)
     is_flag=True,
     help="Compute again what is damaged or missing in DIRECTORY.",
 )
+@click.option(
+    "--extend",
+    is_flag=True,
+    help="Go on from the results of a smaller design in DIRECTORY: one with fewer repetitions, "
+    "sizes or distributions, and all else the same.",
+)
 def run(
     directory: Path | None,
     preset: str | None,
@@ -142,6 +148,7 @@ def run(
     worker_memory: int | None,
     dashboard: bool,
     repair: bool,
+    extend: bool,
 ) -> None:
     """Run a study into DIRECTORY and write its report.
 
@@ -156,7 +163,7 @@ def run(
 
     options = ClusterOptions(workers, scheduler, scheduler_file, wait, dashboard, worker_memory)
     with progress() as listener, stop_once():
-        summary = _run(directory, kind, design, options, listener, repair=repair)
+        summary = _run(directory, kind, design, options, listener, repair=repair, extend=extend)
     computed = perf_counter()
     path = _write_report(directory)
     _print_summary(summary, computed - start, perf_counter() - computed)
@@ -221,15 +228,12 @@ def _run(
     design: Any,  # noqa: ANN401 - of the kind's own type
     options: ClusterOptions,
     listener: Listener,
-    *,
-    repair: bool,
+    **how: bool,
 ) -> Summary:
     from study.run.runner import run as run_design
 
     try:
-        return run_design(
-            directory, kind, design, options=options, listener=listener, repair=repair
-        )
+        return run_design(directory, kind, design, options=options, listener=listener, **how)
     except KeyboardInterrupt:
         click.echo(
             f"\nStopped. What is finished is kept in {directory}; the same command goes on from "

@@ -274,6 +274,18 @@ class Design(BaseModel):
         """Return the same design with another seed."""
         return type(self).from_settings(self.model_dump() | {"seed": seed})
 
+    def contains(self, other: "Design") -> bool:
+        """Tell whether every point set of another design is here, by the same methods."""
+        sets = self.repetitions_by_size
+        return (
+            (self.seed, self.correlation) == (other.seed, other.correlation)
+            and set(other.distributions) <= set(self.distributions)
+            and all(
+                number <= sets.get(size, 0) and self.methods_of(size) == other.methods_of(size)
+                for size, number in other.repetitions_by_size.items()
+            )
+        )
+
     def difference(self, other: "Design") -> str | None:
         """Say how another design differs from this one.
 

@@ -117,6 +117,8 @@ class Store:
         Takes a sentence about something out of the ordinary.
     repair : bool
         Whether what is damaged or missing is to be computed again.
+    extend : bool
+        Whether the results of a design that this one contains are to be gone on from.
 
     Raises
     ------
@@ -133,6 +135,7 @@ class Store:
         note: Callable[[str], None] = lambda sentence: None,
         *,
         repair: bool = False,
+        extend: bool = False,
     ) -> None:
         self.directory = directory
         self.kind = kind
@@ -151,7 +154,7 @@ class Store:
             self._lock = locked(directory, note)
         try:
             with writing(directory):
-                self._open(note, repair=repair)
+                self._open(note, repair=repair, extend=extend)
         except BaseException:
             self.close()
             raise
@@ -173,14 +176,14 @@ class Store:
             # The file stays: removing it would let two runs hold two locks.
             self._lock.release()
 
-    def _open(self, note: Callable[[str], None], *, repair: bool) -> None:
+    def _open(self, note: Callable[[str], None], *, repair: bool, extend: bool) -> None:
         for name in (MANIFEST, JOURNAL, *map(_file, self.kind.tables)):
             for leftover in leftovers(self.directory / name):
                 leftover.unlink()
-        complete = False
+        complete = extended = False
         if (self.directory / MANIFEST).exists():
             manifest = read_manifest(self.directory)
-            self._check_same(manifest)
+            extended = self._is_extended(manifest, extend=extend)
             now = self._environments[0]
             self._environments += [e for e in manifest.content["environments"] if e != now]
             complete = manifest.complete
@@ -193,7 +196,7 @@ class Store:
                     raise
                 note(f"{error} Its study is computed again.")
                 complete = False
-        if complete and manifest.content["failed"] == 0:
+        if complete and manifest.content["failed"] == 0 and not extended:
             journal.unlink(missing_ok=True)
             return
         self._read_journal(note if repair else None)
@@ -228,19 +231,32 @@ class Store:
         else:
             self._failed.pop(outcome.task, None)
 
-    def _check_same(self, manifest: Manifest) -> None:
-        """Refuse to write where the results of another study are."""
+    def _is_extended(self, manifest: Manifest, *, extend: bool) -> bool:
+        """Tell whether the results are of a design that this one contains.
+
+        Raises
+        ------
+        InputError
+            If they are of another study, or are not to be gone on from.
+        """
         if self._has_nothing(manifest):
-            return
+            return False
+        contained = False
         if manifest.kind.name != self.kind.name:
             difference: str | None = f"{manifest.kind.name} there and {self.kind.name} here"
         else:
             difference = manifest.design.difference(self.design)
-        if difference:
-            raise InputError(
-                f"{self.directory} holds the results of another design ({difference}): give "
-                "another directory."
+            contained = self.kind.contains(self.design, manifest.design)
+        if difference and not (extend and contained):
+            what_to_do = (
+                "give another directory, or --extend to go on from them."
+                if contained
+                else "give another directory."
             )
+            raise InputError(
+                f"{self.directory} holds the results of another design ({difference}): {what_to_do}"
+            )
+        return difference is not None
 
     def _has_nothing(self, manifest: Manifest) -> bool:
         """Whether the run of a manifest ended before its first result, for example in an error."""

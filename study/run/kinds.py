@@ -199,6 +199,10 @@ class Kind(ABC, Generic[Task, D]):
     def tasks_of(self, design: D) -> list[Task]:
         """Return the tasks of a design in the order of its results."""
 
+    def contains(self, design: D, other: D) -> bool:
+        """Tell whether a design has all tasks of another, with the same outcomes."""
+        return False
+
     @abstractmethod
     def perform(self, task: Task, design: D) -> Outcome[Task]:
         """Perform a task; what comes out depends on the arguments alone, times apart."""

@@ -87,6 +87,7 @@ def run(
     options: ClusterOptions,
     listener: Listener,
     repair: bool = False,
+    extend: bool = False,
 ) -> Summary:
     """Compute what a results directory lacks of a design.
 
@@ -104,6 +105,8 @@ def run(
         Hears of the progress.
     repair : bool
         Whether what is damaged or missing in the directory is to be computed again.
+    extend : bool
+        Whether to go on from the results of a design that this one contains.
 
     Raises
     ------
@@ -115,7 +118,7 @@ def run(
     computed, kernel_seconds, n_threads = Size(0, 0), 0.0, 0
     if not directory.exists():  # nothing is left of a run that could not begin
         check_request(kind, design, options)
-    with Store(directory, kind, design, listener.note, repair=repair) as store:
+    with Store(directory, kind, design, listener.note, repair=repair, extend=extend) as store:
         if store.unfinished:
             with connect(kind, design, options, listener.note) as workers:
                 waiting = options.waiting(listener.note)

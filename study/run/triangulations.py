@@ -149,6 +149,10 @@ class Triangulations(Kind[Task, Design]):
             for replicate in range(repetitions)
         ]
 
+    def contains(self, design: Design, other: Design) -> bool:
+        """Tell whether a design has the point sets of another, by the same methods."""
+        return design.contains(other)
+
     def order_of(self, design: Design) -> Mapping[str, Sequence[object]]:
         """Order rows by method before all else."""
         return {"method": ("", *design.methods)}

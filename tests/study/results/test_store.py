@@ -526,6 +526,93 @@ def test_damaged_lines_are_left_out_on_request(tmp_path, whole):
     assert notes == [f"2 damaged lines of {journal} are left out and computed again."]
 
 
+LARGER = Design.from_settings(
+    {"sizes": [10, 15, 20], "repetitions": [4, 1, 3], "seed": 1}
+    | {"distributions": ["uniform", "normal", "exponential"]}
+)
+
+
+def fresh(directory, design):
+    """Fill a directory with a larger design at once."""
+    with Store(directory, TRIANGULATIONS, design) as store:
+        store.add([outcome(task) for task in store.tasks])
+        store.finish()
+    return contents(directory)
+
+
+@pytest.mark.parametrize("begun", ["finished", "with failures", "cut short"])
+def test_a_smaller_design_is_gone_on_from(tmp_path, begun):
+    directory = tmp_path / "run"
+    failed = {TASKS[2]} if begun == "with failures" else set()
+    with Store(directory, TRIANGULATIONS, DESIGN) as store:
+        some = TASKS[:5] if begun == "cut short" else TASKS
+        store.add([outcome(task, error="no" if task in failed else None) for task in some])
+        if begun != "cut short":
+            store.finish()
+    with pytest.raises(InputError, match=r"another directory, or --extend to go on from them\."):
+        Store(directory, TRIANGULATIONS, LARGER)
+    for _ in range(2):  # the first leaves before anything is computed
+        with Store(directory, TRIANGULATIONS, LARGER, extend=True) as store:
+            left = [task for task in store.tasks if task not in set(some) - failed]
+            assert store.unfinished == left
+            assert len(load(directory)["results"]) == len(some)
+    with Store(directory, TRIANGULATIONS, LARGER) as store:  # from now on it is the design
+        store.add([outcome(task) for task in left])
+        store.finish()
+    assert contents(directory) == fresh(tmp_path / "fresh", LARGER)
+    assert load(directory).complete
+    with Store(directory, TRIANGULATIONS, LARGER, extend=True) as store:
+        assert store.unfinished == []
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"seed": 2},
+        {"correlation": 0.25},
+        {"methods": ["incremental", "delaunay"]},
+        {"repetitions": [4, 1, 2]},
+        {"sizes": [10, 15, 25]},
+        {"distributions": ["uniform", "exponential"]},
+    ],
+    ids=lambda change: next(iter(change)),
+)
+def test_only_a_design_that_is_contained_is_gone_on_from(whole, change):
+    before = contents(whole)
+    other = Design.from_settings(LARGER.model_dump() | change)
+    for extend in (False, True):
+        with pytest.raises(InputError, match=r"\): give another directory\.$"):
+            Store(whole, TRIANGULATIONS, other, extend=extend)
+    assert contents(whole) == before
+
+
+def test_a_design_that_stops_later_is_another(whole):
+    both = {"methods": ["incremental", "delaunay"]}
+    stops, goes_on = (
+        Design.from_settings(LARGER.model_dump() | both | {"largest": largest})
+        for largest in ({"delaunay": 10}, {})
+    )
+    assert not goes_on.contains(stops)
+    assert not goes_on.contains(DESIGN)
+    assert stops.contains(stops)
+
+
+def test_a_death_while_it_is_extended_loses_nothing(whole, monkeypatch):
+    before = load(whole)
+
+    def killed(*_):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(store_module, "write_manifest", killed)
+        with pytest.raises(KeyboardInterrupt):
+            Store(whole, TRIANGULATIONS, LARGER, extend=True)
+    assert load(whole).complete
+    pd.testing.assert_frame_equal(load(whole)["results"], before["results"])
+    with Store(whole, TRIANGULATIONS, LARGER, extend=True) as store:
+        assert len(store.unfinished) == len(store.tasks) - len(TASKS)
+
+
 def test_the_parts_of_large_tables_are_put_in_order(tmp_path, monkeypatch):
     """Files that are made in many parts hold the rows of those made in one, in the same order."""
     design = Design.from_settings(DESIGN.model_dump() | {"methods": ["incremental", "delaunay"]})
