@@ -15,8 +15,8 @@ from reports.page.blocks import (
 from reports.page.evidence import Evidence
 from reports.page.views import View
 from reports.study_page.sections.continuation import one_chance_in_short
-from reports.study_page.sections.edge import edge_in_short
 from reports.study_page.sections.limit import trend_sentence
+from reports.study_page.sections.parts import edge_in_short
 from reports.study_page.sections.plain_insertion import paper_triangulation
 from reports.study_page.tables import TABLE_4
 from reports.text.words import LEVEL

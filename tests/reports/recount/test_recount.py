@@ -13,7 +13,7 @@ from run_data import Run, log10_chi2_tail, log10_f_tail, log10_t_tail
 from scipy import stats
 from tiny_runs import SMALL, store_run
 
-from reports.study_page.sections import edge
+from reports.study_page.sections import layers, parts
 from study.design.design import Design
 from study.run.triangulations import TRIANGULATIONS
 from study.text.numbers import show
@@ -133,7 +133,8 @@ def test_a_number_that_a_section_gets_wrong_is_noticed(
     def wrong(value: float, how: str) -> str:
         return show(value + 0.0002, how) if how == "fixed4" else show(value, how)
 
-    monkeypatch.setattr(edge, "show", wrong)
+    for module in (parts, layers):
+        monkeypatch.setattr(module, "show", wrong)
     outcome = recount_sentences(page_sentences(directory), Run(directory))
     places = {text.partition(" ")[0] for text in outcome.differing}
     assert places == {"parts", "figure-parts", "layers", "key-figures"}

@@ -11,7 +11,7 @@ from made_runs import page
 
 from lepp import INTERIOR_LAYER
 from reports.page.views import View
-from reports.study_page.sections import edge
+from reports.study_page.sections import layers, longest_paths
 from study.analysis.part_changes import LAST_LAYERS, PART_CHANGES
 from study.analysis.part_means import COMMON_MEANS, LAYER_MEANS, LONGEST_PATHS, PART_MEANS
 
@@ -91,11 +91,11 @@ def test_whether_the_edge_reaches_into_the_interior(verdict, words):
         ]
     )
     changed = replace(evidence, tables=adding(evidence.tables, table))
-    *_, said = edge._layers(changed, VIEW_OF)
+    *_, said = layers._layers(changed, VIEW_OF)
     assert said.replace("\u00a0", " ") == (
         f"Layers 24 to 29, the last before the interior, have a mean of {words}"
     )
-    assert len(edge._layers(changed, View("incremental", "exponential"))) == 1
+    assert len(layers._layers(changed, View("incremental", "exponential"))) == 1
 
 
 @pytest.mark.parametrize(
@@ -119,7 +119,7 @@ def test_where_the_longest_paths_start(paths, inside, layer, of_layer, words):
         paths=paths, interior_paths=inside, layer=layer, layer_paths=of_layer
     )
     changed = replace(evidence, tables=adding(evidence.tables, replace(table, frame=frame)))
-    (said,) = edge._longest(changed, VIEW_OF)
+    (said,) = longest_paths._longest(changed, VIEW_OF)
     assert said.endswith(f" the largest size of all, 20, and {words}.")
 
 
@@ -193,11 +193,11 @@ def test_long_paths_that_start_at_the_edge(at_edge, words):
         paths=159, interior_paths=159 - at_edge, edge_triangles=0.0072, edge_share=at_edge / 159
     )
     changed = replace(evidence, tables=adding(evidence.tables, replace(table, frame=frame)))
-    (said,) = edge._longest(changed, VIEW_OF)
+    (said,) = longest_paths._longest(changed, VIEW_OF)
     assert f"points, {words} at the edge; by its share of the triangles, 0.72 %, 1.1 would." in (
         said.replace("\u00a0", " ")
     )
-    found = edge._figure_longest(changed).alternatives[VIEW_OF.key]
+    found = longest_paths._figure_longest(changed).alternatives[VIEW_OF.key]
     assert f": {at_edge} and 1.1 of 159 for uniform points" in found
 
 
@@ -208,7 +208,7 @@ def test_lines_of_long_paths_end_where_few_are_left():
     for paths, left in ((100, 0), (99, 1)):
         frame = table.frame.assign(paths=table.frame["paths"].where(~last, paths))
         changed = replace(evidence, tables=adding(evidence.tables, replace(table, frame=frame)))
-        drawn = edge._figure_longest(changed).specs[VIEW_OF.key]["data"][0]
+        drawn = longest_paths._figure_longest(changed).specs[VIEW_OF.key]["data"][0]
         rows = evidence.rows(LONGEST_PATHS, **VIEW).frame
         assert len(drawn["x"]) == len(rows) - left
 
@@ -257,13 +257,13 @@ def test_layers_are_named_by_what_tests_of_them_show(words, sentence, figure):
         told = words[layer] if layer < len(words) else "not shown"
         frame.loc[frame["layer"] == layer, "against_interior"] = told
     changed = replace(evidence, tables=adding(evidence.tables, replace(table, frame=frame)))
-    (said,) = edge._layers(changed, VIEW_OF)
+    (said,) = layers._layers(changed, VIEW_OF)
     assert sentence in said
-    assert figure in edge._figure_layers(changed).alternatives[VIEW_OF.key]
+    assert figure in layers._figure_layers(changed).alternatives[VIEW_OF.key]
 
 
 def test_layers_in_a_row_are_named_by_their_ends():
-    named = edge._layers_named(pd.DataFrame({"layer": [0, 1, 2, 5, 7, 8]}))
+    named = layers._layers_named(pd.DataFrame({"layer": [0, 1, 2, 5, 7, 8]}))
     assert named == "layers 0 to 2, 5 and 7 to 8"
 
 
