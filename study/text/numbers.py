@@ -97,6 +97,11 @@ def p_is(log10_p: float) -> str:
     return f"p{SPACE}{shown}" if shown.startswith("<") else f"p{SPACE}={SPACE}{shown}"
 
 
+def p_of(p: float) -> str:
+    """Write what a p-value is, as `p_is` does."""
+    return p_is(math.log10(p) if p > 0 else -math.inf)
+
+
 def f_test(f: float, df: float, df_residual: float) -> str:
     """Write an F statistic with its degrees of freedom."""
     return (

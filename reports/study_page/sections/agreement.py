@@ -1,6 +1,5 @@
 """Does it agree with the paper: the scoreboard, Table 4, and the paper held against itself."""
 
-import math
 from collections.abc import Iterator
 
 import pandas as pd
@@ -49,7 +48,7 @@ from study.paper.scoreboard import (
 from study.statistics.thresholds import AGREES_UP_TO, CLOSE_UP_TO, TABLE_DIFFERS_BELOW
 from study.statistics.verdicts import UNDECIDED, YES
 from study.text.notation import typeset
-from study.text.numbers import count, listed, none_or, p_is, show
+from study.text.numbers import count, listed, none_or, p_is, p_of, show
 
 
 def section(evidence: Evidence) -> Section:
@@ -215,8 +214,7 @@ def _independent(evidence: Evidence, view: View, total: pd.Series) -> Iterator[s
 def _shifts(rows: pd.DataFrame) -> str:
     """Say whether numbers of one kind are off to one side."""
     each = [
-        f"{QUANTITIES[row.quantity]} {show(row.shift, 'fixed2')} "
-        f"({p_is(math.log10(row.shift_p) if row.shift_p > 0 else -math.inf)})"
+        f"{QUANTITIES[row.quantity]} {show(row.shift, 'fixed2')} ({p_of(row.shift_p)})"
         for row in rows.itertuples()
     ]
     off = [

@@ -12,7 +12,7 @@ from study.paper.judging import AGREES, DIFFERS
 from study.paper.published import LARGEST_LEPP, MEAN_LEPP, MEAN_TRIANGLES, SD_BETWEEN, SHOWN
 from study.paper.scoreboard import OVERALL, TOO_CLOSE
 from study.statistics.thresholds import AGREES_UP_TO, CLOSE_UP_TO
-from study.text.numbers import count, listed, p_is, show
+from study.text.numbers import count, listed, p_is, p_of, show
 
 #: What the paper's Table 4 has of each group, in words.
 QUANTITIES = {
@@ -50,11 +50,16 @@ def _overall(evidence: Evidence, view: View) -> list[str] | None:
     words = [
         f"{QUANTITIES[row.quantity]} {_VERDICTS[row.verdict]} "
         f"(χ² = {show(row.chi2, 'fixed1')} on {row.df} degrees of freedom, "
-        f"{p_is(row.log10_p)}; largest difference "
+        f"{_chance(row.verdict, row.log10_p, row.p_less)}; largest difference "
         f"{show(abs(row.furthest), 'fixed2')} standard errors)"
         for row in each.itertuples()
     ]
     return [f"Over all groups together, {listed(words)}."]
+
+
+def _chance(verdict: str, log10_more: float, less: float) -> str:
+    """Say how likely a sum as large is, or one as small where the verdict is that it is small."""
+    return f"{p_of(less)} for less" if verdict == TOO_CLOSE else p_is(log10_more)
 
 
 def _means(evidence: Evidence) -> FigureBlock:

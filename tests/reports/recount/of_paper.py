@@ -106,6 +106,9 @@ def of_kind(run: Run, method: str, kind: str) -> np.ndarray:
     return np.array([c.z for c in independent(run, method) if c.kind == kind])
 
 
+CLOSER = "agrees closer than chance"
+
+
 def _together(z: np.ndarray, shift: bool) -> tuple[str, float, float]:
     """Verdict, chi-squared and log10 p of differences together."""
     chi2 = float(z @ z)
@@ -115,7 +118,7 @@ def _together(z: np.ndarray, shift: bool) -> tuple[str, float, float]:
     if min(p, common if shift else 1.0) < 0.01:
         verdict = "differs"
     elif stats.chi2.cdf(chi2, len(z)) < 0.01:
-        verdict = "agrees closer than chance"
+        verdict = CLOSER
     return verdict, chi2, log10_chi2_tail(chi2, len(z))
 
 
@@ -172,7 +175,7 @@ def all_together(v: View, s: Sheet, k: int) -> str:
     words = {
         "agrees": "are as far from ours as chance puts them",
         "differs": "are further from ours than chance puts them",
-        "agrees closer than chance": "are nearer to ours than chance puts them",
+        CLOSER: "are nearer to ours than chance puts them",
     }[verdict]
     # The bootstrap's own error is that of one number of all.
     levene_z = of_kind(v.run, v.method, "levene")
@@ -300,9 +303,12 @@ def group_by_group(v: View, s: Sheet, k: int) -> str:
     for kind in (MEAN, SD, TRIANGLES, LARGEST):
         z = of_kind(v.run, v.method, kind)
         verdict, chi2, p = _together(z, shift=True)
+        chance = s.p_is(p, 1e-6)
+        if verdict == CLOSER:
+            chance = f"{s.p_is(np.log10(stats.chi2.cdf(chi2, len(z))), 1e-6)} for less"
         words.append(
             f"{kind} {verdict} (χ² = {s(chi2)} on {s(len(z))} degrees of freedom, "
-            f"{s.p_is(p, 1e-6)}; largest difference {s(np.abs(z).max())} standard errors)"
+            f"{chance}; largest difference {s(np.abs(z).max())} standard errors)"
         )
     return f"Over all groups together, {listed(words)}."
 

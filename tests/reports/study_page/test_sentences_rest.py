@@ -322,6 +322,11 @@ def test_table_4_as_a_whole():
     assert abs(chi2 - 20 * z * z) < 2
     assert "the mean LEPP size differs" in moved
     assert "its standard deviation agrees closer than chance" in moved
+    sd = moved.split("its standard deviation ")[1].split(";")[0].replace("\u202f", " ")
+    less = stats.chi2.cdf(float(sd.split("χ² = ")[1].split(" ")[0]), 20)
+    assert less < 0.01
+    assert sd.endswith(" for less")
+    assert "for less" not in moved.split("its standard deviation ")[0]
     kept = paper_run().evidence
     frame = kept.tables["reproduction_overall"].frame.assign(verdict="agrees")
     some = told_with(kept, "table-4", reproduction_overall=frame)

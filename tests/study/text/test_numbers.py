@@ -8,6 +8,7 @@ from study.text.numbers import (
     large,
     listed,
     p_is,
+    p_of,
     p_value_from_log10,
     show,
     significant,
@@ -73,7 +74,8 @@ def test_a_small_p_is_never_shown_as_zero() -> None:
 def test_what_a_p_is() -> None:
     assert p_is(-1.0) == "p\u00a0=\u00a00.1000"
     assert p_is(-300.5) == "p\u00a0=\u00a03.2\u00a0×\u00a010⁻³⁰¹"
-    assert p_is(-558986.0) == p_is(-float("inf")) == "p\u00a0<\u00a010⁻³⁰⁷"
+    assert p_of(0.0123) == "p\u00a0=\u00a00.0123"
+    assert p_of(0.0) == p_is(-558986.0) == p_is(-float("inf")) == "p\u00a0<\u00a010⁻³⁰⁷"
 
 
 def test_f_has_both_degrees_of_freedom() -> None:
