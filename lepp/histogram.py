@@ -1,6 +1,7 @@
 """The histogram of LEPP sizes: the sufficient statistic of a mesh, or of many."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -91,18 +92,18 @@ class LeppCounts:
     @property
     def sd(self) -> float:
         """Standard deviation of the LEPP sizes (divisor: `count`); nan when nothing was counted."""
-        return float(np.sqrt(self._moments()[0]))
+        return float(np.sqrt(self._moments[0]))
 
     @property
     def skewness(self) -> float:
         """Third central moment over the cube of `sd`; nan when all sizes are equal."""
-        second, third, _ = self._moments()
+        second, third, _ = self._moments
         return third / second**1.5 if second > 0 else np.nan
 
     @property
     def kurtosis(self) -> float:
         """Fourth central moment over the fourth power of `sd`, minus 3 (excess kurtosis)."""
-        second, _, fourth = self._moments()
+        second, _, fourth = self._moments
         return fourth / second**2 - 3.0 if second > 0 else np.nan
 
     @property
@@ -120,6 +121,7 @@ class LeppCounts:
         sizes = [(size, int(number)) for size, number in enumerate(self.counts) if number]
         return [sum(number * size**k for size, number in sizes) for k in range(1, power + 1)]
 
+    @cached_property
     def _moments(self) -> tuple[float, float, float]:
         """Return the second, third and fourth central moments, from exact integer sums."""
         n = self.count
