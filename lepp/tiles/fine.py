@@ -11,10 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from lepp.geometry.lengths import edge_ranks
-from lepp.jit.memory import in_one_block
 from lepp.tiles.coarse import CoarseMesh
 from lepp.triangulate.plain.edges import link
-from lepp.triangulate.plain.subdivision import Lists, Mesh, subdivide
+from lepp.triangulate.plain.subdivision import Mesh, subdivide
 
 
 class TilePoints(NamedTuple):
@@ -136,10 +135,9 @@ def fine_mesh(coarse: CoarseMesh, first: int, inside: TilePoints) -> FineMesh:
     roots[:, :3] = corners
     roots[:, 3:] = 2 * np.arange(3 * n_tiles).reshape(-1, 3)  # half-edge 2 e of side e is inside
     room = 2 * int(np.diff(inside.starts).max()) + 8
-    size = k + 3 * room
-    lists = Lists(*in_one_block((size, np.float64), (size, np.float64), (size, np.int32)))
-    lists.x[:k], lists.y[:k] = inside.x, inside.y
-    lists.ident[:k] = np.where(inside.on_side, ~numbers, numbers)
+    lists = np.empty((k + 3 * room, 3))
+    lists[:k, 0], lists[:k, 1] = inside.x, inside.y
+    lists[:k, 2] = np.where(inside.on_side, ~numbers, numbers)
     split, repeats = np.zeros(4 * n, np.int32), np.full(n, -1, np.int32)
     mesh = Mesh(
         np.empty((2 * n, 3), np.int32),

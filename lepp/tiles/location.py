@@ -121,7 +121,6 @@ def _descend(points, n_coarse, roots, starts, room, lists, repeats, placed, corn
     -------
     n_tiles : int
     """
-    x, y, ident = lists
     second = starts[-1] + room
     third = second + room
     jobs = np.empty(2 * n_coarse + 8, _JOB)
@@ -141,7 +140,7 @@ def _descend(points, n_coarse, roots, starts, room, lists, repeats, placed, corn
             a, b, c = job["a"], job["b"], job["c"]
             first, stop, top_2, top_3 = job["first"], job["stop"], job["top_2"], job["top_3"]
             spans = (first, stop, top_2, top_3)
-            p = np.int64(ident[first])
+            p = np.int64(lists[first, 2])
             on_side = p < 0
             p = ~p if on_side else p
 
@@ -149,8 +148,7 @@ def _descend(points, n_coarse, roots, starts, room, lists, repeats, placed, corn
             if p >= n_coarse:
                 for k in range(first, stop):
                     place = placed[end]
-                    place["x"], place["y"] = x[k], y[k]
-                    i = ident[k]
+                    place["x"], place["y"], i = lists[k, 0], lists[k, 1], np.int64(lists[k, 2])
                     place["ident"] = i - n_coarse if i >= 0 else i + n_coarse
                     end += 1
                 corners[n_tiles, 0], corners[n_tiles, 1], corners[n_tiles, 2] = a, b, c
@@ -164,12 +162,12 @@ def _descend(points, n_coarse, roots, starts, room, lists, repeats, placed, corn
             if on_side:
                 while orient(points, a, b, p) != 0:
                     a, b, c = b, c, a
-                end_2, end_3 = partition_beside(points, x, y, ident, repeats, spans, p, c)
+                end_2, end_3 = partition_beside(points, lists, repeats, spans, p, c)
                 first_part = 1  # the first part is flat
             else:
                 p_x, p_y = points[p, 0], points[p, 1]
                 end_1, end_2, end_3 = partition(
-                    points, x, y, ident, repeats, spans, (p, a, b, c),
+                    points, lists, repeats, spans, (p, a, b, c),
                     (points[a, 0] - p_x, points[a, 1] - p_y, points[b, 0] - p_x,
                      points[b, 1] - p_y, points[c, 0] - p_x, points[c, 1] - p_y),
                 )  # fmt: skip
