@@ -55,11 +55,21 @@ def browser() -> Iterator[Browser]:
 
 
 @pytest.fixture(scope="session")
-def axe() -> str:
+def violations() -> Callable[[Page], list[tuple]]:
+    """Ask axe-core about a page: the rules that are broken, and the first places."""
     path = os.environ.get("LEPP_AXE")
     if not path:
         _missing("LEPP_AXE does not name axe-core's axe.min.js")
-    return Path(str(path)).read_text(encoding="utf-8")
+    axe = Path(str(path)).read_text(encoding="utf-8")
+
+    def ask(page: Page) -> list[tuple]:
+        page.evaluate(axe)
+        found = page.evaluate(
+            "axe.run({ resultTypes: ['violations'] }).then(found => found.violations)"
+        )
+        return [(one["id"], [node["target"] for node in one["nodes"]][:5]) for one in found]
+
+    return ask
 
 
 @pytest.fixture

@@ -43,15 +43,6 @@ LONG_TASKS = """new Promise(resolve => {
 })"""
 
 
-def violations(page: Page, axe: str) -> list[tuple]:
-    """Return what axe-core finds: the rule, and the first places that break it."""
-    page.evaluate(axe)
-    found = page.evaluate(
-        "axe.run({ resultTypes: ['violations'] }).then(found => found.violations)"
-    )
-    return [(one["id"], [node["target"] for node in one["nodes"]][:5]) for one in found]
-
-
 def shown_rows(page: Page, table: str) -> list[list[str]]:
     return page.evaluate(
         """name => [...document.querySelectorAll(`[data-table="${name}"]:not(details *) tbody tr`)]
@@ -417,7 +408,9 @@ def test_page_works_without_its_script(browser: object, report: Path) -> None:
 
 
 @pytest.mark.parametrize(("scheme", "width"), [("light", 1280), ("dark", 390)])
-def test_axe_finds_no_violation(open_report: Open, axe: str, scheme: str, width: int) -> None:
+def test_axe_finds_no_violation(
+    open_report: Open, violations: Callable, scheme: str, width: int
+) -> None:
     page = open_report(color_scheme=scheme, viewport={"width": width, "height": 900})
     page.evaluate("document.querySelectorAll('details').forEach(fold => fold.open = true)")
     draw_all(page)
@@ -426,4 +419,4 @@ def test_axe_finds_no_violation(open_report: Open, axe: str, scheme: str, width:
         "document.querySelectorAll('tbody tr:nth-child(n+9):not(:has(.verdict))')"
         ".forEach(row => row.remove())"
     )
-    assert violations(page, axe) == []
+    assert violations(page) == []
