@@ -100,6 +100,8 @@ def write_tables(folder: Path, tables: Tables) -> None:
 
     A file lists what reports have written here: no other file is removed, whatever its name.
     """
+    # Tables are made here, if not before: what fails then leaves the folder as it is.
+    texts = {f"{name}.csv": table.to_csv() for name, table in tables.items()}
     try:
         folder.mkdir(exist_ok=True)
     except FileExistsError:
@@ -108,15 +110,14 @@ def write_tables(folder: Path, tables: Tables) -> None:
         ) from None
     except OSError as error:
         raise InputError(f"Cannot write into {folder}: {error.strerror}.") from None
-    written = {f"{name}.csv" for name in tables}
     before = _listed(folder / _WRITTEN)
     # First, so that the list holds what is written even if this ends halfway.
-    _list(folder / _WRITTEN, before | written)
-    for name, table in tables.items():
-        write_text(folder / f"{name}.csv", table.to_csv())
-    for old in before - written:
+    _list(folder / _WRITTEN, before | texts.keys())
+    for name, text in texts.items():
+        write_text(folder / name, text)
+    for old in before - texts.keys():
         (folder / old).unlink(missing_ok=True)
-    _list(folder / _WRITTEN, written)
+    _list(folder / _WRITTEN, set(texts))
 
 
 def _listed(path: Path) -> set[str]:
