@@ -136,18 +136,6 @@ def analogous(v: View, s: Sheet, k: int) -> str:
     )
 
 
-def _last(run: Run, method: str) -> dict[str, float]:
-    n = max(run.sizes_of_all)
-    return {d: float(run.groups(method, d)[n].mean()) for d in run.distributions}
-
-
-@recount("figure-distribution-means", "At ")
-def by_mean(v: View, s: Sheet, k: int) -> str:
-    means = _last(v.run, v.method)
-    words = [f"{s(means[d])} ({WORDS[d]})" for d in sorted(means, key=means.__getitem__)]
-    return f"At {s(max(v.run.sizes_of_all))} points the mean LEPP sizes are {listed(words)}."
-
-
 def _each(v: View) -> list[View]:
     return [View(v.run, method, v.distribution) for method in v.run.methods]
 
