@@ -141,10 +141,8 @@ class Design(BaseModel):
 
     @model_validator(mode="after")
     def _check_largest(self) -> Self:
-        stops = set(self.largest)
-        if not set(self.largest.values()) <= set(self.sizes[:-1]) or not stops <= set(self.methods):
-            raise PydanticCustomError(_STOPS, "largest")
-        if stops == set(self.methods):
+        stops_before_the_last = set(self.largest.values()) <= set(self.sizes[:-1])
+        if not (stops_before_the_last and set(self.largest) < set(self.methods)):
             raise PydanticCustomError(_STOPS, "largest")
         return self
 

@@ -52,7 +52,7 @@ def imports_when_imported(source: str, modules: dict[str, str]) -> Iterator[str]
     waiting: list[ast.stmt] = list(ast.parse(source).body)
     while waiting:
         node = waiting.pop()
-        if isinstance(node, ast.FunctionDef):
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
             continue
         if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
             waiting += node.orelse

@@ -117,6 +117,19 @@ def test_failed_tasks_are_told_and_tried_again(tmp_path, config, threads, monkey
     assert load(tmp_path / "out").manifest["failed"] == 0
 
 
+def test_a_larger_design_goes_on_from_a_smaller_when_that_is_asked_for(tmp_path, config, threads):
+    command = ["run", tmp_path / "out", "--config", config]
+    assert lepp_study(*command).exit_code == 0
+    config.write_text(SETTINGS.replace("repetitions = 4", "repetitions = 5"))
+    result = lepp_study(*command)
+    assert result.exit_code == 2
+    assert "(repetitions is 4 there and 5 here): give another directory, or --ext" in result.output
+    result = lepp_study(*command, "--extend")
+    assert result.exit_code == 0, result.output
+    assert "6 triangulations to compute, 2,800 points, 24 of 30 are there" in result.output
+    assert load(tmp_path / "out").complete
+
+
 def test_a_run_of_which_every_task_fails_ends_with_the_list(tmp_path, config, threads, monkeypatch):
     def fail(self, task, design):
         raise MemoryError("no room")
