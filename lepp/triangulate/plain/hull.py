@@ -29,7 +29,7 @@ from lepp.triangulate.plain.waiting import (
 )
 
 #: One point in so many goes ahead, to find roots for the others, if those are this many.
-_OPENING = 64
+_OPENING = 128
 _FEWEST = 1 << 6
 
 
@@ -57,7 +57,7 @@ class Roots(NamedTuple):
 def hull_roots(points: np.ndarray) -> Roots:
     """Insert the points that are outside the hull, or on it, at their turn.
 
-    Most points of a large set are deep in a root that the first points make. They are done with
+    Most points of a large set are inside a root that the first points make. They are done with
     when that is seen, and extend no hull: only the others are swept.
 
     Parameters

@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given, settings
 from point_sets import nasty_points, reference_points
 
+from lepp.tiles.coarse import hull_of, outside
 from lepp.triangulate.plain import hull
 from lepp.triangulate.plain.cells import settle_by_cells
 from lepp.triangulate.plain.hull import hull_roots
@@ -48,12 +49,14 @@ def test_cells_settle_only_what_is_inside(kind):
         assert n_settled > 0.4 * len(points)
 
 
-def test_most_points_of_a_large_set_are_settled_by_cells():
-    points = reference_points("uniform", 100_000, 3)
+@pytest.mark.parametrize("kind", ["uniform", "normal", "exponential"])
+def test_all_points_inside_the_first_hull_are_settled(kind):
+    points = reference_points(kind, 100_000, 3)
     roots = hull_roots(points[:1500])
     places = nobody_placed(len(points))
     settle_by_cells(points, 1500, roots.rows, places)
-    assert (places.state == INSIDE).mean() > 0.8
+    is_inside = ~outside(hull_of(points[:1500]), points[1500:])
+    assert (places.state[1500:][is_inside] == INSIDE).mean() > 0.99
 
 
 @pytest.mark.parametrize(
