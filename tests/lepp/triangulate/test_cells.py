@@ -81,6 +81,16 @@ def test_a_side_at_the_rim_of_a_cell_has_nothing_inside(low, high):
             assert settled(points, triangles, len(corners)) == 0
 
 
+def test_a_point_beside_a_slanting_side_is_in_no_wrong_root():
+    rng = np.random.default_rng(6)
+    for _ in range(50):
+        corners = (
+            np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]) + rng.random((4, 2)) / 4
+        )
+        on_diagonal = corners[0] + rng.random((200, 1)) * (corners[2] - corners[0])
+        settled(np.vstack((corners, on_diagonal)), [(0, 1, 2), (0, 2, 3)], 4)
+
+
 @settings(max_examples=300, deadline=None)
 @given(nasty_points())
 def test_roots_do_not_depend_on_who_goes_ahead(points):
