@@ -66,7 +66,8 @@ def _lengths() -> None:
 
 
 def _paths(points: np.ndarray = _POINTS) -> None:
-    lepp_paths(Triangulation(points, _TRIANGLES, _NEIGHBORS))
+    paths = lepp_paths(Triangulation(points, _TRIANGLES, _NEIGHBORS))
+    assert len(paths.regions) == paths.region_counts.sum() * 2
 
 
 def _equal_lengths() -> None:

@@ -8,6 +8,7 @@ shortest that they give; so sizes do not depend on how the mesh is numbered.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from numbers import Real
 
 import numpy as np
@@ -17,7 +18,7 @@ from lepp.geometry.lengths import LONGEST, NEARLY_EQUAL_BIT
 from lepp.jit.memory import for_kernels
 from lepp.mesh.triangulation import Triangulation
 from lepp.paths.neighbor_types import neighbor_types
-from lepp.paths.regions import regions_of_edges, regions_of_triangles
+from lepp.paths.regions import count_regions, regions_of_edges, regions_of_triangles
 from lepp.paths.successors import follow, single_edges, step_over
 from lepp.paths.ties import choose_edges
 
@@ -35,10 +36,6 @@ class LeppPaths:
         The neighbour across the longest edge; -1 where that is on the boundary.
     neighbor_types : (m,) int8 ndarray
         Of that neighbour: TYPE_A, TYPE_B, TYPE_C; TYPE_NONE at the boundary.
-    terminal_edges : (k, 2) int32 ndarray
-        Vertices of the edges at which paths end; ordered by their (first) terminal triangle.
-    regions : (m,) int32 ndarray
-        Which terminal edge the path of each triangle ends at.
     n_equal : int
         Triangles with more than one longest edge; their successor is, of those that give the
         shortest path, one across a terminal edge, and else across the edge with the largest vertex
@@ -52,10 +49,35 @@ class LeppPaths:
     sizes: np.ndarray
     successors: np.ndarray
     neighbor_types: np.ndarray
-    terminal_edges: np.ndarray
-    regions: np.ndarray
     n_equal: int
     n_nearly_equal: int
+    _triangles: np.ndarray
+    _edges: np.ndarray | None  # the longest edge of each triangle, where each has one
+    _ends: np.ndarray  # of each path: its last triangle, or where edges are equal its last edge
+
+    @property
+    def terminal_edges(self) -> np.ndarray:
+        """Vertices of the edges at which paths end, (k, 2) int32.
+
+        Ordered by their (first) terminal triangle.
+        """
+        return self._terminal[0]
+
+    @property
+    def regions(self) -> np.ndarray:
+        """Which terminal edge the path of each triangle ends at, (m,) int32."""
+        return self._terminal[1]
+
+    @cached_property
+    def _terminal(self) -> tuple[np.ndarray, np.ndarray]:
+        if self._edges is None:
+            return regions_of_edges(self._triangles, self._ends)
+        return regions_of_triangles(self._triangles, self._edges, self._ends)
+
+    @property
+    def region_counts(self) -> np.ndarray:
+        """Terminal-edge regions by size, (k,) int64: ``region_counts[s]`` have s triangles."""
+        return count_regions(self._ends, len(self.sizes) * (3 if self._edges is None else 1))
 
 
 def lepp_sizes(triangulation: Triangulation, *, equal_within: float = 0.0) -> np.ndarray:
@@ -86,7 +108,7 @@ def lepp_sizes(triangulation: Triangulation, *, equal_within: float = 0.0) -> np
         triangles = for_kernels(triangulation.triangles, np.int32)
         return _checked(choose_edges(triangles, neighbors, ranks)[0])
     successors = step_over(neighbors, single_edges(ranks))
-    return _checked(follow(successors, np.empty(0, np.int32)))
+    return _checked(follow(successors)[0])
 
 
 def lepp_paths(triangulation: Triangulation, *, equal_within: float = 0.0) -> LeppPaths:
@@ -114,23 +136,20 @@ def lepp_paths(triangulation: Triangulation, *, equal_within: float = 0.0) -> Le
     n_equal = _n_equal(ranks)
     if n_equal:
         sizes, edges, ends = choose_edges(triangles, neighbors, ranks)
-        _checked(sizes)
-        terminal_edges, regions = regions_of_edges(triangles, ends)
         successors = step_over(neighbors, edges)
     else:
         edges = single_edges(ranks)
         successors = step_over(neighbors, edges)
-        ends = np.empty(len(successors), np.int32)
-        sizes = _checked(follow(successors, ends))  # only then are all ends known
-        terminal_edges, regions = regions_of_triangles(triangles, edges, ends)
+        sizes, ends = follow(successors)
     return LeppPaths(
-        sizes,
+        _checked(sizes),
         successors,
         neighbor_types(neighbors, successors, ranks),
-        terminal_edges,
-        regions,
         n_equal,
         int(np.count_nonzero(ranks & NEARLY_EQUAL_BIT)),
+        triangles,
+        None if n_equal else edges,
+        ends,
     )
 
 

@@ -40,6 +40,35 @@ def regions_of_triangles(triangles, edges, ends):
     return terminal_edges[:n_edges].copy(), regions
 
 
+@kernel
+def count_regions(ends, n_ends):
+    """Count the terminal-edge regions by their size.
+
+    Parameters
+    ----------
+    ends : (m,) int32 ndarray
+        Something that tells the ends of the paths from each other.
+    n_ends : int
+        More than any of them.
+
+    Returns
+    -------
+    (k,) int64 ndarray
+        How many regions have that many triangles.
+    """
+    sizes = np.zeros(n_ends, np.int32)
+    for t in range(len(ends)):
+        sizes[ends[t]] += 1
+    most = 0
+    for end in range(n_ends):
+        most = max(most, sizes[end])
+    counts = np.zeros(most + 1, np.int64)
+    for end in range(n_ends):
+        counts[sizes[end]] += 1
+    counts[0] = 0  # what is no end
+    return counts
+
+
 def regions_of_edges(triangles: np.ndarray, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the same where a triangle may have several terminal edges.
 

@@ -46,8 +46,8 @@ def step_over(neighbors, edges):
 
 
 @kernel
-def follow(successors, ends):
-    """Follow all paths; return the LEPP sizes, (m,) int32; none if a path does not end.
+def follow(successors):
+    """Follow all paths.
 
     Paths are short, and all are followed at once, a step a round, without a branch to mispredict.
     What is left after some rounds is walked, each path to the first triangle whose size is known
@@ -57,55 +57,54 @@ def follow(successors, ends):
     ----------
     successors : (m,) int32 ndarray
         Two triangles that share the longest edge of both succeed each other.
-    ends : (m,) or (0,) int32 ndarray, output
-        The last triangle of each path; of a terminal pair the one with the smaller index. Not
-        wanted if empty.
+
+    Returns
+    -------
+    sizes : (m,) int32 ndarray
+        The LEPP sizes; none if a path does not end.
+    ends : (m,) int32 ndarray
+        The last triangle of each path; of a terminal pair the one with the smaller index.
     """
+    # What is known of a path is one number, its size before its end: so one place is looked up.
     m = len(successors)
-    wanted = len(ends) > 0
-    sizes = np.zeros(m, np.int32)
+    known = np.zeros(m, np.int64)
+    step = np.int64(1) << 32
     pending = np.empty(m + 1, np.int32)
     n_pending = 0
     for t in range(m):
         s = successors[t]
         on = max(s, 0)
-        following = sizes[on]
-        terminal = successors[on] == t
-        size = following + 1 if following > 0 else 0
-        size = 2 if terminal else size
-        size = 1 if s < 0 else size
-        sizes[t] = size
-        if wanted:
-            end = min(s, t) if terminal else ends[on]
-            ends[t] = t if s < 0 else end
+        following = known[on]
+        path = following + step if following > 0 else 0
+        path = 2 * step + min(s, t) if successors[on] == t else path
+        path = step + t if s < 0 else path
+        known[t] = path
         pending[n_pending] = t
-        n_pending += size == 0
+        n_pending += path == 0
     for _ in range(_ROUNDS):
         n_before, n_pending = n_pending, 0
         for k in range(n_before):
             t = pending[k]
-            s = successors[t]
-            following = sizes[s]
-            size = following + 1 if following > 0 else 0
-            sizes[t] = size
-            if wanted:
-                ends[t] = ends[s]
+            following = known[successors[t]]
+            path = following + step if following > 0 else 0
+            known[t] = path
             pending[n_pending] = t
-            n_pending += size == 0
+            n_pending += path == 0
+    sizes, ends = np.empty(m, np.int32), np.empty(m, np.int32)
     for k in range(n_pending):
         steps = 0
         last = pending[k]
-        while sizes[last] == 0:
+        while known[last] == 0:
             last = successors[last]
             steps += 1
             if steps > m:
-                return sizes[:0]
-        size = sizes[last] + steps
+                return sizes[:0], ends
+        path = known[last] + steps * step
         t = pending[k]
-        while sizes[t] == 0:
-            sizes[t] = size
-            if wanted:
-                ends[t] = ends[last]
-            size -= 1
+        while known[t] == 0:
+            known[t] = path
+            path -= step
             t = successors[t]
-    return sizes
+    for t in range(m):
+        sizes[t], ends[t] = known[t] >> 32, known[t] & (step - 1)
+    return sizes, ends

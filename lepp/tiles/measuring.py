@@ -68,8 +68,7 @@ def tile_counts(mesh: FineMesh, outer: Outer) -> TileCounts:
         past = neighbors[last, across]
     else:
         successors = step_over(neighbors, single_edges(ranks))
-        ends = np.empty(len(successors), np.int32)
-        sizes = follow(successors, ends)
+        sizes, ends = follow(successors)
         last, past = ends, successors[ends]
     # A path leaves by a port if it ends in what was put beyond, or with it.
     outermost = np.maximum(last, past)[:m]

@@ -47,7 +47,7 @@ class Counted:
             lepp.count_types(paths.neighbor_types),
             paths.n_equal,
             paths.n_nearly_equal,
-            np.bincount(np.bincount(paths.regions)),
+            paths.region_counts,
         )
 
     @cached_property

@@ -35,6 +35,8 @@ def check_against_twin(triangulation, within=0.0):
         for step in steps[1:]:
             on = paths.successors[on]
             assert on == step
+    sizes_of_regions = np.bincount(paths.regions)
+    assert paths.region_counts.tolist() == np.bincount(sizes_of_regions).tolist()
     ends = [tuple(sorted(edge)) for edge in paths.terminal_edges.tolist()]
     assert len(set(ends)) == len(ends)
     first = [min(t for t in twin.beside[edge]) for edge in ends]
