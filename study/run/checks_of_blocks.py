@@ -20,7 +20,6 @@ from study.design.sampling import Points, marginal_cdf
 from study.run.point_checks import (
     PointChecks,
     Sides,
-    Values,
     count_changes,
     count_sides,
     kolmogorov_p_value,
@@ -29,6 +28,7 @@ from study.run.point_checks import (
     middle_ranks,
     runs_p_value,
 )
+from study.run.ranks import Values
 
 Bins = NDArray[np.int64]
 

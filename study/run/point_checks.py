@@ -10,11 +10,13 @@ from scipy.special import gamma, gammaln, kolmogorov, ndtr, smirnov
 
 from study.design.sampling import Points, marginal_cdf
 from study.run.measures import measure
+from study.run.ranks import Bins, Values
 
-Values = NDArray[np.float64]
+#: Values, about, between two evaluations of the distribution function.
+_STRIDE = 32
 
-#: Sorted values between two evaluations of the distribution function.
-_STRIDE = 64
+#: Fewer values than this are all looked at.
+_FEW = 4096
 
 #: From here on the corrected limiting distribution of Kolmogorov's statistic is right to 2e-5.
 _MANY = 1000
@@ -49,16 +51,25 @@ def check_randomness(points: Points, distribution: str) -> PointChecks:
         The distribution that they were drawn from.
     """
     cdf = marginal_cdf(distribution)
-    # NumPy's sort is vectorised, and both tests live on it: it is most of the cost of the checks.
-    x, y = np.ascontiguousarray(points[:, 0]), np.ascontiguousarray(points[:, 1])
-    sorted_x, sorted_y = np.sort(x), np.sort(y)
-    n = len(points)
-    return PointChecks(
-        runs_p_x=runs_p_value(count_sides(x, median_of_ordered(sorted_x, n))),
-        runs_p_y=runs_p_value(count_sides(y, median_of_ordered(sorted_y, n))),
-        ks_p_x=kolmogorov_p_value(kolmogorov_distance(sorted_x, cdf), n),
-        ks_p_y=kolmogorov_p_value(kolmogorov_distance(sorted_y, cdf), n),
+    (runs_p_x, ks_p_x), (runs_p_y, ks_p_y) = (
+        _p_values(np.ascontiguousarray(points[:, axis]), cdf) for axis in (0, 1)
     )
+    return PointChecks(runs_p_x=runs_p_x, runs_p_y=runs_p_y, ks_p_x=ks_p_x, ks_p_y=ks_p_y)
+
+
+def _p_values(values: Values, cdf: Callable[[Values], Values]) -> tuple[float, float]:
+    """Return the p-values of the runs test and of the Kolmogorov-Smirnov test."""
+    n = len(values)
+    middle = np.array(middle_ranks(n))
+    bins = Bins.of(values)
+    wanted = bins_with_distance(bins, cdf)
+    low, high = bins.holding(middle).tolist()
+    wanted[low : high + 1] = True
+    ordered, ranks = bins.take(wanted)
+    low, high = ordered[np.searchsorted(ranks, middle)].tolist()
+    distance = largest_distance(cdf(ordered), ranks, n)
+    runs_p = runs_p_value(count_sides(values, (low + high) / 2))
+    return runs_p, kolmogorov_p_value(distance, n)
 
 
 def middle_ranks(n: int) -> tuple[int, int]:
@@ -152,37 +163,35 @@ def runs_p_value(sides: Sides) -> float:
     return float(2 * ndtr(-z))
 
 
-def kolmogorov_distance(ordered: Values, cdf: Callable[[Values], Values]) -> float:
-    """Return the largest distance of the empirical distribution function from the true one.
+def bins_with_distance(bins: Bins, cdf: Callable[[Values], Values]) -> NDArray[np.bool_]:
+    """Tell which bins can hold the largest distance of two distribution functions.
 
-    Exact, though the distribution function is evaluated at few of the values. With i from 0, the
-    distance at value i is the larger of (i + 1) / n - F(x_i) and F(x_i) - i / n. F does not fall,
-    so for all i in a block a <= i < b the first is at most b / n - F(x_a), and the second is at
-    most F(x_b) - a / n. A block whose two bounds do not exceed a distance that is attained at an
-    evaluated value cannot hold the maximum; only the other blocks, a handful, are evaluated.
+    The distribution function F is evaluated at few of the values. With ranks i from 0, the
+    distance at value x_i of n is the larger of (i + 1) / n - F(x_i) and F(x_i) - i / n. F does not
+    fall, so in a block of bins from edge u to edge v, with the ranks a <= i < b, the first is at
+    most b / n - F(u), and the second at most F(v) - a / n. A block whose two bounds are below a
+    distance that is attained at an edge cannot hold the maximum; only a handful can.
 
     Parameters
     ----------
-    ordered : (n,) float64 ndarray
-        Values in ascending order.
+    bins : Bins
+        The values.
     cdf : callable
         The true distribution function F, for an array of values.
 
     Returns
     -------
-    distance : float
+    (k,) bool ndarray
     """
-    n = len(ordered)
-    starts = np.arange(0, n, _STRIDE)
-    ends = np.append(starts[1:], n)
-    at_starts = cdf(ordered[starts])
-    at_ends = np.append(at_starts[1:], cdf(ordered[-1:]))
-    attained = largest_distance(at_starts, starts, n)
-    bounds = np.maximum(ends / n - at_starts, at_ends - starts / n)
-    open_blocks = starts[bounds > attained]
-    inside = (open_blocks[:, None] + np.arange(_STRIDE)).ravel()
-    inside = inside[inside < n]
-    return max(attained, largest_distance(cdf(ordered[inside]), inside, n))
+    n, n_bins = len(bins.values), len(bins.ends)
+    if n < _FEW:
+        return np.ones(n_bins, np.bool_)
+    edges = np.append(bins.holding(np.arange(0, n, _STRIDE)), n_bins)
+    edges = edges[np.append(edges[:-1] != edges[1:], True)]
+    ranks, at_edges = bins.below(edges), cdf(bins.edges(edges))
+    attained = np.abs(ranks / n - at_edges).max()
+    bounds = np.maximum(ranks[1:] / n - at_edges[:-1], at_edges[1:] - ranks[:-1] / n)
+    return np.repeat(bounds >= attained, np.diff(edges))
 
 
 def largest_distance(at_values: Values, ranks: NDArray[np.int64], n: int) -> float:

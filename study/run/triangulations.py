@@ -192,6 +192,7 @@ class Triangulations(Kind[Task, Design]):
         largest = Task("", design.sizes[-1], 0)
         tiles = _goes_in_tiles(largest, design) and not self.is_at_once(largest, design, memory)
         lepp.compile_kernels(design.methods, tiles=tiles, meshes=False)
+        check_randomness(sample_points("uniform", 4, 0, seed=0), "uniform")
 
     def perform(self, task: Task, design: Design) -> Outcome[Task]:
         """Draw the points, check their randomness, triangulate them and measure the LEPPs.

@@ -7,12 +7,14 @@ from statsmodels.sandbox.stats.runs import runstest_1samp
 
 from study.design.sampling import DISTRIBUTIONS, marginal_cdf, sample_points
 from study.run.point_checks import (
+    bins_with_distance,
     check_randomness,
     count_sides,
-    kolmogorov_distance,
     kolmogorov_p_value,
+    largest_distance,
     runs_p_value,
 )
+from study.run.ranks import Bins
 
 
 @pytest.mark.parametrize("n_points", [4, 5, 50, 999, 1000, 1001, 40_000])
@@ -31,6 +33,12 @@ def test_checks_agree_with_scipy_and_statsmodels(distribution, n_points):
         assert ks_p == pytest.approx(expected, abs=2.1e-5)
 
 
+def kolmogorov_distance(values, cdf):
+    bins = Bins.of(values)
+    taken, ranks = bins.take(bins_with_distance(bins, cdf))
+    return largest_distance(cdf(taken), ranks, len(values))
+
+
 @settings(deadline=None, max_examples=200)
 @given(
     st.lists(
@@ -39,15 +47,16 @@ def test_checks_agree_with_scipy_and_statsmodels(distribution, n_points):
 )
 def test_distance_is_exact_with_ties_and_poor_fits(drawn):
     head, repeats, power = drawn
-    values = np.sort(np.r_[np.tile(head, repeats), np.linspace(0, 1, 300) ** power])
+    values = np.r_[np.tile(head, repeats), np.linspace(0, 1, 5000) ** power]
     cdf = marginal_cdf("uniform")
     expected = stats.kstest(values, cdf).statistic
     assert kolmogorov_distance(values, cdf) == pytest.approx(expected, rel=0, abs=1e-15)
 
 
-@pytest.mark.parametrize("n_points", [63, 64, 65, 129, 200_000])
-def test_distance_needs_few_evaluations(n_points):
-    ordered = np.sort(sample_points("normal", n_points, 0, seed=2)[:, 0])
+@pytest.mark.parametrize("n_points", [1, 2, 63, 4095, 4096, 200_000])
+@pytest.mark.parametrize("seed", range(3))
+def test_distance_needs_few_evaluations(n_points, seed):
+    values = sample_points("normal", n_points, 0, seed=seed)[:, 0].copy()
     evaluated = 0
 
     def cdf(x):
@@ -55,9 +64,9 @@ def test_distance_needs_few_evaluations(n_points):
         evaluated += x.size
         return marginal_cdf("normal")(x)
 
-    distance = kolmogorov_distance(ordered, cdf)
-    assert distance == pytest.approx(stats.kstest(ordered, "norm").statistic, rel=0, abs=1e-16)
-    assert evaluated <= n_points + n_points // 64 + 2
+    distance = kolmogorov_distance(values, cdf)
+    assert distance == pytest.approx(stats.kstest(values, "norm").statistic, rel=0, abs=1e-16)
+    assert evaluated <= n_points + n_points // 32 + 2
     if n_points == 200_000:
         assert evaluated < 0.1 * n_points
 
