@@ -60,10 +60,11 @@ def _n_tests(data: Measurements) -> int:
 def bounds(one: Population) -> Iterator[Row]:
     """One-sided t tests of every group's mean against 4 and against 2, with its interval."""
     tests = _n_tests(one.data)
+    single = one.data.design.single_sizes_of(one.method)
     for size, values in zip(one.groups.n_points.tolist(), one.groups.values, strict=True):
         if variance(values) > 0:
             yield from _tests(size, values, tests)
-        else:
+        elif size not in single:
             one.lacks(
                 f"{size} points: two or more differing triangulations are needed, "
                 f"there is {len(np.unique(values))}"

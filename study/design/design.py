@@ -195,6 +195,15 @@ class Design(BaseModel):
         """Return the numbers of points that a method triangulates, ascending."""
         return tuple(size for size in self.sizes if method in self.methods_of(size))
 
+    def single_sizes_of(self, method: str) -> tuple[int, ...]:
+        """Return the sizes with one triangulation, where it has more of others: no spread is had.
+
+        A design with one of each size is not meant so, and has none.
+        """
+        sizes = self.sizes_of(method)
+        single = tuple(size for size in sizes if self.repetitions_by_size[size] == 1)
+        return single if len(single) < len(sizes) else ()
+
     @property
     def largest_of_all(self) -> int:
         """The largest number of points that every method triangulates."""

@@ -12,7 +12,7 @@ from study.analysis.group_assumptions import LEVENE, QQ, SHAPIRO
 from study.analysis.group_summaries import GROUPS
 from study.statistics.thresholds import SIGNIFICANCE
 from study.statistics.verdicts import REJECTED
-from study.text.numbers import count, none_or, p_is, show
+from study.text.numbers import count, listed, none_or, p_is, show
 
 
 def assumptions(evidence: Evidence) -> Subsection:
@@ -77,6 +77,14 @@ def _assumptions(evidence: Evidence, view: View) -> list[str] | None:
             f"{show(SIGNIFICANCE * len(shapiro), 'fixed1')}. {AFTER_HOLM} "
             f"normality is rejected in {none_or(rejected)}"
             + ("." if rejected else ", which does not show that they are normal.")
+        )
+    single = evidence.design.single_sizes_of(view.method)
+    if single:
+        each = " each" if len(single) > 1 else ""
+        sentences.append(
+            f"Of {listed([show(size, 'int') for size in single])} points there is one "
+            f"triangulation{each}, which has no spread by itself: no test of groups, here or "
+            "below, includes it. The models of growth do."
         )
     return sentences or None
 

@@ -177,8 +177,11 @@ def _bounds(evidence: Evidence, view: View) -> list[str] | None:
             continue
         rejected = int((rows["verdict"] == REJECTED).sum())
         weakest = rows["log10_p_bonferroni"].max()
+        with_spread = " with a spread" if evidence.design.single_sizes_of(view.method) else ""
         where = (
-            "every group" if rejected == len(rows) else f"{rejected} of {count(len(rows), 'group')}"
+            f"every group{with_spread}"
+            if rejected == len(rows)
+            else f"{rejected} of {count(len(rows), 'group')}{with_spread}"
         )
         sentences.append(
             f"In {where} of {view.distribution_word} points the mean is significantly {side} "

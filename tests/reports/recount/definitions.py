@@ -37,6 +37,7 @@ DEFINITIONS: dict[str, frozenset[str]] = {
             "and crosses its longest edge into the neighbour, then the neighbour’s longest "
             "edge, and so on.",
             "The lower one, 2, is the size of the shortest path inside.",
+            "The models of growth do.",
             "The runs test counts whole numbers of runs, so that sets of a given size can "
             "have only certain p-values.",
             "The whole mesh and its interior have one limit, as long as the edge's share of the "

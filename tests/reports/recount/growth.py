@@ -100,7 +100,7 @@ def free_of_edge(run: Run, method: str, distribution: str) -> Groups | None:
     frame = run.counts("layers", method, distribution)
     every = frame.groupby("n_points")["count"].sum()
     inside = frame[frame["layer"] == INTERIOR_LAYER].groupby("n_points")["count"].sum()
-    groups = run.groups(method, distribution, INTERIOR)
+    groups = run.all_groups(method, distribution, INTERIOR)
     large = {n: g for n, g in groups.items() if inside[n] >= 0.9 * every[n]}
     return large if len(large) >= 5 else None
 
@@ -108,7 +108,7 @@ def free_of_edge(run: Run, method: str, distribution: str) -> Groups | None:
 def judged_groups(run: Run, method: str, distribution: str, part: str) -> Groups:
     """Means of triangulations at the sizes that are judged."""
     large = free_of_edge(run, method, distribution) if part == INTERIOR else None
-    return large or run.groups(method, distribution, part)
+    return large or run.all_groups(method, distribution, part)
 
 
 @cache
@@ -406,7 +406,7 @@ def per_decade(key: tuple, part: str) -> Interval:
 def verdict(run: Run, method: str, distribution: str, part: str) -> tuple[str, str] | None:
     """Whether there is a limit, and why; None for too few sizes."""
     key = (run, method, distribution)
-    if not run.groups(*key[1:], part) or len(means(*key, part).x) < 5:
+    if not run.all_groups(*key[1:], part) or len(means(*key, part).x) < 5:
         return None
     left = survivors(*key, part)
     _, low, high = per_decade(key, part)

@@ -189,7 +189,7 @@ def doubling(v: View, s: Sheet, k: int) -> str:
 def ends(v: View, s: Sheet, k: int) -> str:
     words = []
     for one in _each(v):
-        groups = v.run.groups(one.method, v.distribution)
+        groups = v.run.all_groups(one.method, v.distribution)
         a, b = min(groups), max(groups)
         words.append(
             f"{one.method_word} means go from {s(groups[a].mean())} at {s(a)} to "

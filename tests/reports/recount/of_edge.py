@@ -51,7 +51,7 @@ def edge_share(run: Run, method: str, distribution: str, n: int) -> float:
 
 @recount("parts", "At .* points the edge has")
 def share_by_method(v: View, s: Sheet, k: int) -> str:
-    n = max(v.run.groups(v.method, v.distribution, INTERIOR))
+    n = max(v.run.all_groups(v.method, v.distribution, INTERIOR))
     return (
         f"At {s(n)} points the edge has {s.percent(edge_share(*v.key, n))} of the triangles by the "
         f"{v.method_word} method."
@@ -60,15 +60,15 @@ def share_by_method(v: View, s: Sheet, k: int) -> str:
 
 @recount("parts", "No ")
 def none_has_an_interior(v: View, s: Sheet, k: int) -> str:
-    assert not v.run.groups(v.method, v.distribution, INTERIOR)
+    assert not v.run.all_groups(v.method, v.distribution, INTERIOR)
     of = f"{v.method_word} triangulation of {v.word} points"
     return f"No {of} is large enough here to have an interior."
 
 
 @recount("parts", "From ")
 def changes(v: View, s: Sheet, k: int) -> str:
-    whole = {n: g.mean() for n, g in v.run.groups(v.method, v.distribution).items()}
-    inside = {n: g.mean() for n, g in v.run.groups(v.method, v.distribution, INTERIOR).items()}
+    whole = {n: g.mean() for n, g in v.run.all_groups(v.method, v.distribution).items()}
+    inside = {n: g.mean() for n, g in v.run.all_groups(v.method, v.distribution, INTERIOR).items()}
     a, b = min(inside), max(inside)
     return (
         f"From {s(a)} to {s(b)} points the mean of the whole mesh changes by "
@@ -79,9 +79,9 @@ def changes(v: View, s: Sheet, k: int) -> str:
 
 def _change(v: View, part: str) -> tuple[int, int, float, float, float, float]:
     """Welch's test and interval between the ends of the sizes that have an interior."""
-    sizes = v.run.groups(v.method, v.distribution, INTERIOR)
+    sizes = v.run.all_groups(v.method, v.distribution, INTERIOR)
     a, b = min(sizes), max(sizes)
-    groups = v.run.groups(v.method, v.distribution, part)
+    groups = v.run.all_groups(v.method, v.distribution, part)
     first, last = groups[a], groups[b]
     parts = np.array([one.var(ddof=1) / len(one) for one in (first, last)])
     df = parts.sum() ** 2 / (parts**2 / [len(first) - 1, len(last) - 1]).sum()
@@ -176,7 +176,7 @@ def reach(v: View, s: Sheet, k: int) -> str:
 
 @recount("parts", "At .* points the interiors")
 def one_mean(v: View, s: Sheet, k: int) -> str:
-    seen = {d: means_of(v.run.groups(v.method, d, INTERIOR)) for d in v.run.distributions}
+    seen = {d: means_of(v.run.all_groups(v.method, d, INTERIOR)) for d in v.run.distributions}
     x = max(one.x.max() for one in seen.values())
     at = {d: int(np.flatnonzero(one.x == x)[0]) for d, one in seen.items() if x in one.x}
     y = {d: float(seen[d].y[i]) for d, i in at.items()}
@@ -204,7 +204,7 @@ def one_mean(v: View, s: Sheet, k: int) -> str:
 def spans(v: View, s: Sheet, k: int) -> str:
     words = []
     for part in (WHOLE, INTERIOR):
-        groups = [v.run.groups(v.method, d, part) for d in v.run.distributions]
+        groups = [v.run.all_groups(v.method, d, part) for d in v.run.distributions]
         n = max((n for group in groups for n in group), default=0)
         last = [group[n].mean() for group in groups if n in group]
         where = f"in the {'whole mesh' if part == WHOLE else 'interior'}"

@@ -175,8 +175,8 @@ def _larger_half(groups: Groups) -> Groups:
 
 def edge_limit(key: tuple) -> tuple[float, float, float, float] | None:
     """Limit of the thickening edge, mean of larger interiors, t and p of their difference."""
-    whole = key[0].groups(*key[1:])
-    inside = free_of_edge(*key) or _larger_half(key[0].groups(*key[1:], INTERIOR))
+    whole = key[0].all_groups(*key[1:])
+    inside = free_of_edge(*key) or _larger_half(key[0].all_groups(*key[1:], INTERIOR))
     seen = means_of(inside)
     of_whole = means(*key, WHOLE)
 
@@ -220,8 +220,8 @@ def edge_agrees(v: View, s: Sheet, k: int) -> str:
 
 def trend(v: View, s: Sheet) -> str:
     """The sentence on the mean at both ends, with Welch's test."""
-    groups = v.run.groups(v.method, v.distribution)
-    welch = welch_test(groups)
+    groups = v.run.all_groups(v.method, v.distribution)
+    welch = welch_test(v.run.groups(v.method, v.distribution))
     first, last = min(groups), max(groups)
     a, b = groups[first].mean(), groups[last].mean()
     of_test = f"(Welch's analysis of variance, {s.p_is(welch[3])})"
@@ -363,7 +363,7 @@ def curves_beyond(v: View, s: Sheet, k: int) -> str:
 
 @recount("figure-models")
 def curves_of_all(v: View, s: Sheet, k: int) -> str:
-    groups = v.run.groups(v.method, v.distribution)
+    groups = v.run.all_groups(v.method, v.distribution)
     fits = _least_squares(*v.key)
     n = max(groups)
     values = {}
@@ -390,7 +390,7 @@ def projections(v: View, s: Sheet, k: int) -> str:
 @cache
 def _least_squares(run: Run, method: str, distribution: str) -> dict:
     """The paper's four models by statsmodels' least squares."""
-    groups = run.groups(method, distribution)
+    groups = run.all_groups(method, distribution)
     x = np.concatenate([np.full(len(g), n / 1000) for n, g in groups.items()])
     y = np.concatenate(list(groups.values()))
     made = {}

@@ -325,7 +325,7 @@ def group_means(v: View, s: Sheet, k: int) -> str:
 
 @recount("figure-means", "The mean goes")
 def mean_goes(v: View, s: Sheet, k: int) -> str:
-    groups = v.run.groups(v.method, v.distribution)
+    groups = v.run.all_groups(v.method, v.distribution)
     a, b = min(groups), max(groups)
     return (
         f"The mean goes from {s(groups[a].mean())} at {s(a)} points to {s(groups[b].mean())} at "

@@ -107,6 +107,16 @@ def shapiro_holm(v: View, s: Sheet, k: int) -> str:
     return f"{HOLM} normality is rejected in {s(0)}, which does not show that they are normal."
 
 
+@recount("assumptions", "Of .* points there is")
+def single(v: View, s: Sheet, k: int) -> str:
+    sizes = v.run.single_sizes(v.method)
+    return (
+        f"Of {listed([s(n) for n in sizes])} points there is one "
+        f"triangulation{' each' if len(sizes) > 1 else ''}, which has no spread by itself: no test "
+        "of groups, here or below, includes it."
+    )
+
+
 @recount("figure-qq", "The ")
 def qq(v: View, s: Sheet, k: int) -> str:
     scores = np.sort(np.concatenate([(g - g.mean()) / g.std(ddof=1) for g in values(v)]))
@@ -160,7 +170,7 @@ def share_of_variance(v: View, s: Sheet, k: int) -> str:
 
 @recount("anova", "What does not depend")
 def span(v: View, s: Sheet, k: int) -> str:
-    means = [g.mean() for g in values(v)]
+    means = [g.mean() for g in v.run.all_groups(v.method, v.distribution).values()]
     return (
         "What does not depend on the design are the groups' means, which span "
         f"{s(min(means))} to {s(max(means))}."
@@ -222,6 +232,7 @@ def bound(v: View, s: Sheet, k: int) -> str:
     p = bound_tests(*v.key)[at]
     rejected = sum(one < np.log10(0.05) for one in p)
     where = "every group" if rejected == len(p) else f"{s(rejected)} of {s(len(p))} groups"
+    where += " with a spread" if v.run.single_sizes(v.method) else ""
     return (
         f"In {where} of {v.word} points the mean is significantly {side} {at}; the largest p is "
         f"{s.p(max(p))}, corrected for all tests."
@@ -357,7 +368,7 @@ def figure_5(v: View, s: Sheet, k: int) -> str:
 
 @recount("statement Figure 6")
 def figure_6(v: View, s: Sheet, k: int) -> str:
-    means = {n: g.mean() for n, g in v.run.groups(v.method, v.distribution).items()}
+    means = {n: g.mean() for n, g in v.run.all_groups(v.method, v.distribution).items()}
     return _grows(
         v, s, "The mean LEPP size has a very weak upward trend with the number of points", means, 1
     )

@@ -155,6 +155,17 @@ class Run:
         last = self.design.get("largest", {}).get(method, self.sizes[-1])
         return [n for n in self.sizes if n <= last]
 
+    def single_sizes(self, method: str) -> list[int]:
+        """Those of which there is to be one triangulation, if there are to be more of others."""
+        each = self.design["repetitions"]
+        if not isinstance(each, list):
+            return []
+        return [
+            n
+            for n, r in zip(self.sizes, each, strict=True)
+            if r == 1 and n in self.sizes_of(method)
+        ]
+
     @property
     def sizes_of_all(self) -> list[int]:
         """Those that every method goes to."""
@@ -171,6 +182,11 @@ class Run:
         return self._parted[name][method, distribution]
 
     def groups(self, method: str, distribution: str, part: str = WHOLE) -> Groups:
+        """Means by size, where there are two or more: one has no spread."""
+        groups = self.all_groups(method, distribution, part)
+        return {n: means for n, means in groups.items() if len(means) > 1}
+
+    def all_groups(self, method: str, distribution: str, part: str = WHOLE) -> Groups:
         """Means by size, of whole meshes or of their interiors."""
         if part == WHOLE:
             frame = self.rows(method, distribution)

@@ -3,9 +3,13 @@
 import numpy as np
 import pandas as pd
 import pytest
+from frames import design
 from made_runs import page, run
+from page_text import drawn, page_text
 from scipy import stats
 
+from reports.study_page.sections import alarms
+from study.analysis.building import MISSING
 from study.text.numbers import p_value_from_log10
 
 HOLM = (
@@ -139,6 +143,28 @@ def test_bounds_of_the_mean(name):
     assert ("every group of uniform points the mean is significantly below" in said) == (
         name == "growing"
     )
+
+
+@pytest.mark.parametrize(
+    ("repetitions", "single"),
+    [((8, 8, 8, 8), ""), ((8, 8, 8, 1), "8,000"), ((1, 8, 8, 1), "1,000 and 8,000"), (1, "")],
+)
+def test_a_size_with_one_triangulation_by_design_is_no_alarm_but_said(repetitions, single):
+    said = page_text(drawn(design(distributions=("uniform",), repetitions=repetitions)))
+    each = " each" if "and" in single else ""
+    sentence = (
+        f"Of {single} points there is one triangulation{each}, which has no spread by itself: no "
+        "test of groups, here or below, includes it. The models of growth do."
+    )
+    if repetitions == 1:
+        missing = set(said.evidence.rows(MISSING)["what"])
+        assert {"Shapiro-Wilk test", "t tests against 2 and 4"} <= missing
+        return
+    assert (sentence in said.prose("assumptions")) == bool(single)
+    assert ("one triangulation" in said.prose("assumptions")) == bool(single)
+    assert alarms(said.evidence) == []
+    where = "every group with a spread" if single else "every group"
+    assert f"In {where} of uniform points the mean is" in said.prose("bounds")
 
 
 @pytest.mark.parametrize("name", ["level", "narrowing", "widening"])
