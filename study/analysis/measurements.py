@@ -128,6 +128,12 @@ class Measurements:
         return _by_population(self.layers)
 
 
+def triangulations_by_size(rows: pd.DataFrame) -> dict[int, int]:
+    """Count the triangulations that rows of histograms or layers are of, by number of points."""
+    counts = rows.groupby("n_points")["replicate"].nunique()
+    return {int(size): int(number) for size, number in counts.items()}
+
+
 def _by_population(frame: pd.DataFrame) -> dict[tuple[str, str], pd.DataFrame]:
     return {
         (method, distribution): rows.drop(columns=_POPULATION).reset_index(drop=True)

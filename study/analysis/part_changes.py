@@ -8,8 +8,10 @@ from scipy import stats
 
 from lepp import INTERIOR_LAYER
 from study.analysis.building import Population, Study, rows_by_population, rows_of
+from study.analysis.measurements import triangulations_by_size
 from study.analysis.parts import INTERIOR, INTERIOR_NOTE, INTERVAL, PART, PARTS
 from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Declaration, Row
+from study.statistics.groups import best_repeated
 from study.statistics.multiple_testing import holm
 from study.statistics.tails import log10_t_tail
 from study.statistics.thresholds import CONFIDENCE, SIGNIFICANCE
@@ -96,7 +98,9 @@ def last_layers(study: Study) -> Iterator[Row]:
 
 def _last_layers(study: Study, method: str, distribution: str) -> Iterator[Row]:
     counts = study.data.by_layer(method, distribution)
-    counts = counts[counts["n_points"] == counts["n_points"].max()]
+    if counts.empty:
+        return
+    counts = counts[counts["n_points"] == best_repeated(triangulations_by_size(counts))]
     steps = counts.assign(steps=counts["lepp_size"] * counts["count"])
     last = _means(steps[steps["layer"].isin(LAST_LAYERS_ARE)])
     interior = _means(steps[steps["layer"] == INTERIOR_LAYER])

@@ -8,9 +8,10 @@ from scipy import special
 
 from lepp import INTERIOR_LAYER
 from study.analysis.building import Population, Study, rows_by_population, rows_of
+from study.analysis.measurements import triangulations_by_size
 from study.analysis.parts import INTERIOR, INTERIOR_NOTE, INTERVAL, PART, PARTS, interior_shares
 from study.analysis.table import DISTRIBUTION, METHOD, N_POINTS, Column, Declaration, Row
-from study.statistics.groups import NotEnough
+from study.statistics.groups import ENOUGH, NotEnough, best_repeated
 from study.statistics.homogeneity import homogeneity
 from study.statistics.intervals import mean_interval, ratio_of_sums
 from study.statistics.multiple_testing import holm
@@ -58,7 +59,8 @@ LAYER_MEANS = Declaration(
     ),
     note="The layer of a triangle is the number of steps across edges from it to a triangle at the "
     f"hull; {INTERIOR_LAYER} stands for that and more. The mean is over all triangles of a layer "
-    "in all triangulations of a size, the least, the middle and the largest of them; its standard "
+    "in all triangulations of a size: the least, the middle and the largest of them, up to the "
+    f"largest with {ENOUGH} triangulations or more, if there is one; its standard "
     "error is that of a ratio of sums over triangulations. A layer is above or below the interior "
     f"where a t test rejects at {SIGNIFICANCE}, by Holm's correction over the layers of the size; "
     "the errors of both, which come from the same triangulations, are taken as independent.",
@@ -138,8 +140,11 @@ def part_means(one: Population) -> Iterator[Row]:
 def layer_means(one: Population) -> Iterator[Row]:
     """Mean over the triangles of each layer, at three sizes."""
     rows = one.data.by_layer(one.method, one.distribution)
+    if rows.empty:
+        return
     sizes = np.unique(rows["n_points"])
-    for n in sizes[sorted({0, len(sizes) // 2, len(sizes) - 1} & set(range(len(sizes))))]:
+    sizes = sizes[sizes <= best_repeated(triangulations_by_size(rows))]
+    for n in sizes[sorted({0, len(sizes) // 2, len(sizes) - 1})]:
         of_size = rows[rows["n_points"] == n]
         total = of_size["count"].sum()
         layers: list[Row] = []

@@ -19,7 +19,6 @@ from study.analysis.table import (
     select,
 )
 from study.statistics.continuation import (
-    ENOUGH,
     SHORTEST,
     Continuation,
     LawFit,
@@ -28,7 +27,7 @@ from study.statistics.continuation import (
     fit_power,
     longest_expected,
 )
-from study.statistics.groups import NotEnough
+from study.statistics.groups import ENOUGH, NotEnough, best_repeated
 from study.statistics.intervals import ratio_interval
 from study.statistics.thresholds import FEW_PATHS, LEVEL, ROUGH_RATE, SIGNIFICANCE
 from study.statistics.verdicts import rejected
@@ -301,10 +300,7 @@ def _level(chance: float) -> Callable[[np.ndarray], np.ndarray]:
 
 
 def _continuation(one: Population, part: str) -> tuple[int, Continuation]:
-    """Return the number of points that the rates are of, and the rates.
-
-    It is the largest with enough triangulations for a covariance; if none has, the largest.
-    """
+    """Return the number of points that the rates are of, `best_repeated`, and the rates."""
     frame = one.data.histogram(one.method, one.distribution, part)
     if frame.empty:
         raise NotEnough("no triangulation has it")
@@ -312,8 +308,7 @@ def _continuation(one: Population, part: str) -> tuple[int, Continuation]:
         int(size): counts_by_task(group, "lepp_size")
         for size, group in frame.groupby("n_points", sort=True)
     }
-    enough = [size for size, counts in groups.items() if len(counts) >= ENOUGH]
-    n_points = max(enough or groups)
+    n_points = best_repeated({size: len(counts) for size, counts in groups.items()})
     upto = [counts for size, counts in groups.items() if size <= n_points]
     return n_points, continuation(upto)
 

@@ -191,7 +191,9 @@ def theorem_1(one: Population) -> Iterator[Row]:
 def theorem_2(one: Population) -> Iterator[Row]:
     """Test whether every step ends a path with a chance of 1/3 or more, and the bounds."""
     histogram = one.data.histogram(one.method, one.distribution)
+    single = one.data.design.single_sizes_of(one.method)
     for size, group in one.by_size():
+        every_step = {} if size in single else _every_step(histogram[histogram["n_points"] == size])
         p, low, high = mean_interval(shares(group, TYPES["C"]).to_numpy())
         mean_inside = int(group["mean_lepp"].between(LEAST_MEAN, MOST_MEAN).sum())
         sd_inside = int(group["sd_lepp"].between(LEAST_SD, MOST_SD).sum())
@@ -201,7 +203,7 @@ def theorem_2(one: Population) -> Iterator[Row]:
             "p_type_c": p,
             "p_low": low,
             "p_high": high,
-            **_every_step(histogram[histogram["n_points"] == size]),
+            **every_step,
             "lowest_mean": group["mean_lepp"].min(),
             "highest_mean": group["mean_lepp"].max(),
             "highest_sd": group["sd_lepp"].max(),

@@ -148,10 +148,11 @@ def _premise(of: _Tables) -> Judged:
     p = rows["p_type_c"]
     seen = f"share p of type C from {show(p.min(), 'fixed4')} to {show(p.max(), 'fixed4')}; "
     known = rows.frame.dropna(subset="lowest_rate")
+    holds = all_of(rows["premise"].dropna())
     if known.empty:
-        return all_of(rows["premise"]), f"{seen}no step is known to within {ROUGH_RATE:g}"
+        return holds, f"{seen}no step is known to within {ROUGH_RATE:g}"
     least = known.loc[known["lowest_rate"].idxmin()]
-    return all_of(rows["premise"]), (
+    return holds, (
         f"{seen}the least chance to end at any step, at a neighbour of type C or at the boundary, "
         f"is {show(least['lowest_rate'], 'fixed4')}, at size {least['lowest_size']} "
         f"({least['n_points']:,} points)"

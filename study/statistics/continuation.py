@@ -11,16 +11,13 @@ from typing import Self
 import numpy as np
 from scipy import optimize
 
-from study.statistics.groups import NotEnough
+from study.statistics.groups import ENOUGH, NotEnough
 from study.statistics.intervals import t_quantile
 from study.statistics.tails import log10_f_tail
 from study.statistics.thresholds import FEW_PATHS, ROUGH_RATE
 
 #: Size of the shortest path that takes a step.
 SHORTEST = 2
-
-#: Triangulations of one number of points from which on their own covariance is used.
-ENOUGH = 16
 
 #: Range of ln(2 + b) in which the law is looked for. Towards its upper end the law becomes an
 #: exponential in k, towards its lower end a constant after a first, different rate.

@@ -1,9 +1,13 @@
 """Groups of independent values, and what is too little of them for a statistic."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+
+#: Groups of so many tell by themselves how their values vary together.
+ENOUGH = 16
 
 
 class NotEnough(Exception):  # noqa: N818 - it is no error: the run simply does not hold enough
@@ -62,3 +66,23 @@ def variance(values: np.ndarray) -> float:
     if len(values) < 2:
         return np.nan
     return float(values.var(ddof=1)) if np.ptp(values) else 0.0
+
+
+def best_repeated(triangulations: Mapping[int, int]) -> int:
+    """Return the largest number of points with enough triangulations to tell how they vary.
+
+    Parameters
+    ----------
+    triangulations : mapping of int to int
+        By number of points; not empty.
+
+    Returns
+    -------
+    int
+        The largest with `ENOUGH`; if there is none, the largest with two; else the largest.
+    """
+    for least in (ENOUGH, 2, 0):
+        repeated = [size for size, number in triangulations.items() if number >= least]
+        if repeated:
+            return max(repeated)
+    raise ValueError("there is no number of points")

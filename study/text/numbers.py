@@ -75,7 +75,10 @@ def significant(number: float, digits: int) -> str:
 
 
 def percent(share: float, digits: int) -> str:
-    """Write a share times 100, with so many decimals."""
+    """Write a share times 100, with so many decimals; one that they would show as 0 as below 1."""
+    least = 10.0**-digits
+    if 0 < 100 * share < least / 2:
+        return f"<{SPACE}{least:.{digits}f}{SPACE}%"
     return _signed(f"{100 * share:,.{digits}f}") + f"{SPACE}%"
 
 

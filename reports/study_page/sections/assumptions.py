@@ -41,6 +41,15 @@ def assumptions(evidence: Evidence) -> Subsection:
     )
 
 
+def groups_tested(evidence: Evidence, view: View, number: int, total: int, whose: str = "") -> str:
+    """Name so many of the groups that tests can be made of, those that have a spread."""
+    words = "every group" if number == total else f"{number} of {count(total, 'group')}"
+    spread = ""
+    if evidence.design.single_sizes_of(view.method):
+        spread = f" that {'has' if number == total or total == 1 else 'have'} a spread"
+    return f"{words}{whose}{spread}"
+
+
 def _assumptions(evidence: Evidence, view: View) -> list[str] | None:
     sentences = []
     levene = evidence.rows(LEVENE, view)

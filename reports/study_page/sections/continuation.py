@@ -19,7 +19,7 @@ from study.analysis.path_lengths import (
     PATH_LAWS,
     TERMINATION,
 )
-from study.statistics.continuation import ENOUGH
+from study.statistics.groups import ENOUGH
 from study.statistics.thresholds import ROUGH_RATE
 from study.statistics.verdicts import REJECTED
 from study.text.numbers import f_test, large, listed, p_is, show

@@ -13,6 +13,7 @@ from reports.text.words import LEVEL
 from study.analysis.part_changes import LAST_LAYERS, LAST_LAYERS_ARE
 from study.analysis.part_means import ABOVE, BELOW, LAYER_MEANS
 from study.analysis.table import Rows
+from study.statistics.groups import ENOUGH
 from study.statistics.verdicts import REJECTED
 from study.text.numbers import listed, p_is, show
 
@@ -31,6 +32,7 @@ def layers(evidence: Evidence) -> Subsection:
 
 
 def _at_largest(evidence: Evidence, view: View) -> Rows:
+    """Take the largest number of points that the layers are told of."""
     rows = evidence.rows(LAYER_MEANS, view)
     return rows if rows.empty else rows.select(n_points=rows["n_points"].max())
 
@@ -157,6 +159,7 @@ def _figure_layers(evidence: Evidence) -> FigureBlock:
         specs=per_view(evidence.views, draw),
         alternatives=per_view(evidence.views, say),
         reading=f"The last dot is the interior: layer {INTERIOR_LAYER} and all beyond. Lines are "
-        f"{LEVEL} intervals over triangulations of the largest number of points.",
+        f"{LEVEL} intervals over triangulations of one number of points: the largest with "
+        f"{ENOUGH} triangulations or more, if there is one.",
         data=(TableBlock(LAYER_MEANS, "means of the layers"),),
     )

@@ -7,7 +7,7 @@ from reports.page.blocks import FigureBlock, Prose, Section, Subsection, TableBl
 from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View
-from reports.study_page.sections.assumptions import assumptions
+from reports.study_page.sections.assumptions import assumptions, groups_tested
 from reports.study_page.sections.randomness import randomness
 from reports.text.words import LEVEL
 from study.analysis.bound_tests import BOUNDS, LOWER_BOUND, UPPER_BOUND
@@ -177,15 +177,11 @@ def _bounds(evidence: Evidence, view: View) -> list[str] | None:
             continue
         rejected = int((rows["verdict"] == REJECTED).sum())
         weakest = rows["log10_p_bonferroni"].max()
-        with_spread = " with a spread" if evidence.design.single_sizes_of(view.method) else ""
-        where = (
-            f"every group{with_spread}"
-            if rejected == len(rows)
-            else f"{rejected} of {count(len(rows), 'group')}{with_spread}"
-        )
+        whose = f" of {view.distribution_word} points"
+        where = groups_tested(evidence, view, rejected, len(rows), whose)
         sentences.append(
-            f"In {where} of {view.distribution_word} points the mean is significantly {side} "
-            f"{bound}; the largest p is {show(weakest, 'log10p')}, corrected for all tests."
+            f"In {where} the mean is significantly {side} {bound}; the largest p is "
+            f"{show(weakest, 'log10p')}, corrected for all tests."
         )
     rows = evidence.rows(BOUNDS, view, bound=UPPER_BOUND)
     if not rows.empty:

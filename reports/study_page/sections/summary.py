@@ -71,18 +71,24 @@ def _largest_group(evidence: Evidence, view: View) -> pd.Series | None:
     return None if groups.empty else groups.last
 
 
+def _interval(evidence: Evidence, view: View, n_points: int) -> str:
+    group = evidence.rows(GROUPS, view, n_points=n_points).first
+    if pd.isna(group["mean_low"]):
+        return "of one triangulation, too few for an interval"
+    low, high = show(group["mean_low"], "fixed4"), show(group["mean_high"], "fixed4")
+    return f"{LEVEL} interval {low} to {high}"
+
+
 def _tiles(evidence: Evidence, view: View) -> list[Tile] | None:
     overview = evidence.one(OVERVIEW, view)
     group = _largest_group(evidence, view)
     if overview is None or group is None:
         return None
-    interval = evidence.rows(GROUPS, view, n_points=group["n_points"]).first
     tiles = [
         Tile(
             show(group["mean_lepp"], "fixed4"),
             f"Mean LEPP at {group['n_points']:,} points",
-            f"{LEVEL} interval {show(interval['mean_low'], 'fixed4')} to "
-            f"{show(interval['mean_high'], 'fixed4')}",
+            _interval(evidence, view, group["n_points"]),
         ),
         Tile(
             str(overview["max_lepp"]),
@@ -199,7 +205,7 @@ def _theory(evidence: Evidence, view: View) -> str | None:
 def _supposed(bounds: Rows) -> str:
     """Say whether what the bounds follow from holds as well."""
     step = f"step ends a path with a chance of at least {LEAST_P_TEXT}"
-    premise = all_of(bounds["premise"])
+    premise = all_of(bounds["premise"].dropna())
     if premise == YES:
         return (
             f". So does what they follow from, that every {step}, as far as the chances are known "
@@ -220,7 +226,7 @@ def _known_up_to(bounds: Rows) -> str:
 
 
 def _refuted(bounds: Rows) -> str:
-    premise = bounds["premise"]
+    premise = bounds["premise"].dropna()
     failed = int((premise == NO).sum())
     where = f"at {failed} of {count(len(premise), 'number')} of points, "
     least = show(bounds["lowest_rate"].min(), "fixed4")

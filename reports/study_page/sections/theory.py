@@ -8,6 +8,7 @@ from reports.page.blocks import FigureBlock, Prose, Section, Subsection, TableBl
 from reports.page.evidence import Evidence
 from reports.page.style import Spec
 from reports.page.views import View
+from reports.study_page.sections.assumptions import groups_tested
 from reports.study_page.sections.continuation import going_on, one_chance, sure
 from reports.study_page.sections.worst_case import worst_case
 from reports.text.words import LEVEL, PREMISE
@@ -95,13 +96,16 @@ def _premise(evidence: Evidence, view: View) -> list[str] | None:
 
 def _every_step(evidence: Evidence, view: View) -> str:
     rows = evidence.rows(THEOREM_2, view)
-    premise = rows["premise"]
+    premise = rows["premise"].dropna()
+    holds, fails = int((premise == YES).sum()), int((premise == NO).sum())
+    verb = "fails" if fails else "holds" if holds == len(premise) else "is clear"
+    where = groups_tested(evidence, view, fails or holds, len(premise))
     known = rows.frame.dropna(subset="lowest_rate")
     if known.empty:
         return f"No step is known to within {ROUGH_RATE:g}, so that this stays open."
     least = known.loc[known["lowest_rate"].idxmin()]
     return (
-        f"As far as the chances are known to within {ROUGH_RATE:g}, this {_in_groups(premise)}: "
+        f"As far as the chances are known to within {ROUGH_RATE:g}, this {verb} in {where}: "
         f"the least chance to end, at a neighbour of type C or at the boundary, is "
         f"{show(least['lowest_rate'], 'fixed4')}, at size {least['lowest_size']} and "
         f"{least['n_points']:,} points.{_of_the_edge(evidence, view, least)}"
@@ -114,9 +118,13 @@ def _of_the_edge(evidence: Evidence, view: View, least: pd.Series) -> str:
     if inside.empty:
         return ""
     lowest = inside.loc[inside["rate"].idxmax()]
-    if not 1 - lowest["high"] > least["lowest_high"]:
+    whole = evidence.one(THEOREM_2, view, n_points=lowest["n_points"])
+    if whole is None or not 1 - lowest["high"] > whole["lowest_high"]:
         return ""
     where = "The edge of the mesh has a part in it: in the interior,"
+    if whole["n_points"] != least["n_points"]:
+        whole_mesh = show(whole["lowest_rate"], "fixed4")
+        where = f"Where it is {whole_mesh}, the edge of the mesh has a part in it: in the interior,"
     if 1 - lowest["low"] < LEAST_P:
         where = f"It is higher in the interior, but below {LEAST_P_TEXT} there as well:"
     return (
@@ -138,15 +146,6 @@ def _bounds_hold(rows: Rows) -> str:
         f"{show(rows['highest_sd'].max(), 'fixed4')}, where √{MOST_SD**2:g} is "
         f"{show(MOST_SD, 'fixed4')}. The lower one, 2, is the size of the shortest path inside."
     )
-
-
-def _in_groups(premise: pd.Series) -> str:
-    holds, fails = int((premise == YES).sum()), int((premise == NO).sum())
-    if len(premise) in (holds, fails):
-        return f"{'holds' if holds else 'fails'} in every group"
-    if fails:
-        return f"fails in {fails} of {len(premise)} groups"
-    return f"is clear in {holds} of {len(premise)} groups"
 
 
 def _types(evidence: Evidence) -> FigureBlock:

@@ -73,7 +73,8 @@ DEFINITIONS: dict[str, frozenset[str]] = {
             "Bars are 95 % intervals: narrow where regions are many, wide where they are few.",
             "Every edge across the strip is longer than the one to its left.",
             "If the points are random, the bars are level with the dashed line, give or take.",
-            "Lines are 95 % intervals over triangulations of the largest number of points.",
+            "Lines are 95 % intervals over triangulations of one number of points: the largest "
+            "with 16 triangulations or more, if there is one.",
             "Long paths come in bundles that share most of their triangles: the longest one "
             "seen scatters more widely around what a law expects than independent paths "
             "would.",

@@ -97,6 +97,10 @@ class Sheet:
         """Mark for a share, as a percentage."""
         return f"{self(100 * share, 100 * slack)} %"
 
+    def percent2(self, share: float) -> str:
+        """The same with two decimals, which have no 0 for a share that is more."""
+        return f"< {self(0.01)} %" if 0 < share < 0.5e-4 else self.percent(share)
+
     def p(self, log10_p: float, slack: float = 0.0) -> str:
         """Mark for a p-value, by its decimal logarithm."""
         self.numbers.append(_Number(float(log10_p), slack, logarithm=True))

@@ -53,8 +53,8 @@ def edge_share(run: Run, method: str, distribution: str, n: int) -> float:
 def share_by_method(v: View, s: Sheet, k: int) -> str:
     n = max(v.run.all_groups(v.method, v.distribution, INTERIOR))
     return (
-        f"At {s(n)} points the edge has {s.percent(edge_share(*v.key, n))} of the triangles by the "
-        f"{v.method_word} method."
+        f"At {s(n)} points the edge has {s.percent2(edge_share(*v.key, n))} of the triangles by "
+        f"the {v.method_word} method."
     )
 
 
@@ -121,7 +121,7 @@ def edge_in_short(v: View, s: Sheet, k: int) -> str:
 def _last_layers(run: Run, method: str, distribution: str) -> tuple[float, np.ndarray] | None:
     """Mean of layers 24 to 29 of the largest meshes, and how far it is off the interior's."""
     frame = run.counts("layers", method, distribution)
-    frame = frame[frame["n_points"] == frame["n_points"].max()]
+    frame = frame[frame["n_points"] == run.layered_size(method, distribution)]
 
     def means_of_layers(kept: pd.Series) -> pd.Series:
         return pd.Series(
@@ -218,8 +218,8 @@ def spans(v: View, s: Sheet, k: int) -> str:
 
 @recount("layers", "At ")
 def edge_of_largest(v: View, s: Sheet, k: int) -> str:
-    n = max(v.sizes)
-    return f"At {s(n)} points the edge has {s.percent(edge_share(*v.key, n))} of the triangles."
+    n = v.run.layered_size(v.method, v.distribution)
+    return f"At {s(n)} points the edge has {s.percent2(edge_share(*v.key, n))} of the triangles."
 
 
 def off_interior(run: Run, method: str, distribution: str, n: int) -> dict[str, list[int]]:
@@ -252,7 +252,7 @@ def _named(numbers: list[int], s: Sheet) -> str:
 
 @recount("layers", "The mean of the interior is")
 def layers_off_interior(v: View, s: Sheet, k: int) -> str:
-    n = max(v.run.counts("layers", v.method, v.distribution)["n_points"])
+    n = v.run.layered_size(v.method, v.distribution)
     table, off = layers(*v.key, n), off_interior(*v.key, n)
     inside = s(table.loc[INTERIOR_LAYER, "mean"])
     words = [f"below it in {_named(off['below'], s)}"] if off["below"] else []
@@ -275,7 +275,7 @@ def layers_off_interior(v: View, s: Sheet, k: int) -> str:
 def furthest_layers(v: View, s: Sheet, k: int) -> str:
     words = []
     for d in v.run.distributions:
-        n = max(v.run.counts("layers", v.method, d)["n_points"])
+        n = v.run.layered_size(v.method, d)
         above = off_interior(v.run, v.method, d, n)["above"]
         layer = "none"
         if above:
@@ -316,7 +316,7 @@ def longest_start(v: View, s: Sheet, k: int) -> str:
     return (
         f"Of the {s(total)} paths of {s(size)} triangles and more at {s(n)} points, {s(at_edge)} "
         f"{plural(max(at_edge, 1), 'starts', 'start')} at the edge; by its share of the triangles, "
-        f"{s.percent(edge)}, {s(total * edge)} would."
+        f"{s.percent2(edge)}, {s(total * edge)} would."
     )
 
 

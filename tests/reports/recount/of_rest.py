@@ -77,7 +77,10 @@ def no_longer(v: View, s: Sheet, k: int) -> str:
 def tile_mean(v: View, s: Sheet, k: int) -> str:
     n = max(v.sizes)
     mean, low, high = mean_interval(v.run.rows(v.method, v.distribution, n)["mean_lepp"].to_numpy())
-    return f"Mean LEPP at {s(n)} points | {s(mean)} | 95 % interval {s(low)} to {s(high)}"
+    at = f"Mean LEPP at {s(n)} points | {s(mean)}"
+    if np.isnan(low):
+        return f"{at} | of one triangulation, too few for an interval"
+    return f"{at} | 95 % interval {s(low)} to {s(high)}"
 
 
 @recount("tile", "Longest path")

@@ -226,16 +226,16 @@ def bound_tests(run: Run, method: str, distribution: str) -> dict[int, list[floa
     return made
 
 
-@recount("bounds", "In .* points the mean is significantly")
+@recount("bounds", "In .* points (that has a spread )?the mean is significantly")
 def bound(v: View, s: Sheet, k: int) -> str:
     at, side = ((4, "below"), (2, "above"))[k]
     p = bound_tests(*v.key)[at]
     rejected = sum(one < np.log10(0.05) for one in p)
     where = "every group" if rejected == len(p) else f"{s(rejected)} of {s(len(p))} groups"
-    where += " with a spread" if v.run.single_sizes(v.method) else ""
+    has_spread = " that has a spread" if v.run.single_sizes(v.method) else ""
     return (
-        f"In {where} of {v.word} points the mean is significantly {side} {at}; the largest p is "
-        f"{s.p(max(p))}, corrected for all tests."
+        f"In {where} of {v.word} points{has_spread} the mean is significantly {side} {at}; "
+        f"the largest p is {s.p(max(p))}, corrected for all tests."
     )
 
 

@@ -111,6 +111,8 @@ def premise_by_size(run: Run, method: str, distribution: str) -> dict[int, tuple
     """By size: verdict on 1/3 at every step, least chance to end, its place, end; last size."""
     made = {}
     for n, frame in run.histogram(method, distribution).groupby("n_points"):
+        if n in run.single_sizes(method):
+            continue
         rates = rates_of([matrix(frame)])
         number = rates.n_sure
         if not number:
@@ -216,6 +218,7 @@ def every_step(v: View, s: Sheet, k: int) -> str:
         where = f"fails in {s(fails)} of {s(total)} groups"
     else:
         where = f"is clear in {s(holds)} of {s(total)} groups"
+    where += " that has a spread" if v.run.single_sizes(v.method) else ""
     return (
         f"As far as the chances are known to within 0.05, this {where}: the least "
         f"chance to end, at a neighbour of type C or at the boundary, is "
@@ -230,17 +233,23 @@ def _higher(most: float) -> str:
     return "The edge of the mesh has a part in it: in the interior,"
 
 
-@recount("types", "(It is higher in the interior|The edge of the mesh has)")
+@recount("types", "(It is higher in the interior|Where it is|The edge of the mesh has)")
 def of_the_edge(v: View, s: Sheet, k: int) -> str:
     least = least_chance(v.key)
     n, rates = continuation(*v.key, INTERIOR)  # type: ignore[misc]
     number = rates.n_sure
     at = int(rates.rates[:number].argmax())
     ended, half = 1 - rates.rates[at], rates.half[at]
-    if not ended - half > premise_by_size(*v.key)[least[2]][3]:  # type: ignore[index]
+    _, of_whole, _, high, _ = premise_by_size(*v.key)[n]
+    if not ended - half > high:
         return "The interior's least is not known to be higher."
+    words = _higher(ended + half)
+    if n != least[2] and ended + half >= 1 / 3:  # type: ignore[index]
+        words = (
+            f"Where it is {s(of_whole)}, the edge of the mesh has a part in it: in the interior,"
+        )
     return (
-        f"{_higher(ended + half)} at {s(n)} points, the least is {s(ended)}, at size "
+        f"{words} at {s(n)} points, the least is {s(ended)}, at size "
         f"{s(rates.sizes[at])}, as far as the chances there are known (up to size "
         f"{s(rates.sizes[number - 1])})."
     )

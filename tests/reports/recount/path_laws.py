@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from run_data import INTERIOR, WHOLE, Run, log10_f_tail, matrix, t95
+from run_data import INTERIOR, WHOLE, Run, best_repeated, log10_f_tail, matrix, t95
 from scipy import optimize
 
 
@@ -67,8 +67,7 @@ def continuation(run: Run, method: str, distribution: str, part: str) -> tuple[i
     if frame.empty:
         return None
     groups = {int(n): matrix(g) for n, g in frame.groupby("n_points")}
-    enough = [n for n, counts in groups.items() if len(counts) >= 16]
-    n = max(enough or groups)
+    n = best_repeated({n: len(counts) for n, counts in groups.items()})
     return n, rates_of([counts for size, counts in groups.items() if size <= n])
 
 

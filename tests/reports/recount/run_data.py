@@ -84,6 +84,13 @@ def holm(p: np.ndarray) -> np.ndarray:
     return np.minimum(adjusted, 1.0)
 
 
+def best_repeated(triangulations: dict[int, int]) -> int:
+    """The largest size with 16 triangulations, else with two, else of all."""
+    enough = [n for n, number in triangulations.items() if number >= 16]
+    some = [n for n, number in triangulations.items() if number >= 2]
+    return max(enough or some or triangulations)
+
+
 @dataclass(frozen=True)
 class Run:
     """The tables of one run.
@@ -197,6 +204,11 @@ class Run:
         sums = frame.groupby(["n_points", "replicate"])[["total", "count"]].sum()
         means = sums["total"] / sums["count"]
         return {int(n): g.to_numpy() for n, g in means.groupby("n_points")}
+
+    def layered_size(self, method: str, distribution: str) -> int:
+        """The size that the layers are told of."""
+        frame = self.counts("layers", method, distribution)
+        return best_repeated(frame.groupby("n_points")["replicate"].nunique().to_dict())
 
     def histogram(self, method: str, distribution: str, part: str = WHOLE) -> pd.DataFrame:
         """Counts of LEPP sizes of each triangulation."""

@@ -19,7 +19,8 @@ from study.analysis.path_lengths import (
 )
 from study.analysis.table import Tables
 from study.analysis.theorems import THEOREM_1, THEOREM_2
-from study.statistics.continuation import ENOUGH
+from study.design.design import Design
+from study.statistics.groups import ENOUGH
 from study.statistics.thresholds import ROUGH_RATE
 from study.statistics.verdicts import NO, NOT_REJECTED, REJECTED, YES
 
@@ -295,12 +296,12 @@ def test_the_geometric_law(shares, words):
 EDGE = " The edge of the mesh has a part in it: in the interior, at 8,000 points, the least is "
 
 
-def premise(inside: list, groups: list) -> str:
+def premise(inside: list, groups: list, asked: Design | None = None) -> str:
     known = {"bounds": YES, "p_type_c": 0.48, "highest_mean": 3.2, "lowest_mean": 3.0,
              "highest_sd": 1.5}  # fmt: skip
     rows = [VIEW.where | known | group for group in groups]
     tables = [CONTINUATION.table(inside), THEOREM_1.table([]), THEOREM_2.table(rows)]
-    paragraphs = theory._premise(Evidence(Tables(tables), design(), {}), VIEW)
+    paragraphs = theory._premise(Evidence(Tables(tables), asked or design(), {}), VIEW)
     assert paragraphs is not None
     return " ".join(paragraphs).replace("\u00a0", " ")
 
@@ -321,6 +322,16 @@ def test_the_least_chance_to_end_is_of_the_edge_where_the_interior_has_more(high
     )
     assert (f"{EDGE}{words}" in text) == told
     assert (EDGE in text) == told
+
+
+@pytest.mark.parametrize(("high", "told"), [(0.464, True), (0.466, False)])
+def test_the_interior_is_held_against_the_whole_mesh_of_as_many_points(high, told):
+    # With more points the least is less: that is not the edge's doing.
+    inside = rates("interior", {2: 0.52, 3: 0.53})
+    text = premise(inside, [group(8000, YES, 0.455, high=high), group(16_000, YES, 0.44)])
+    assert "is 0.4400, at size 9 and 16,000 points." in text
+    words = "Where it is 0.4550, the edge of the mesh has a part in it: in the interior, at 8,000 "
+    assert (words in text) == ("a part in it" in text) == told
 
 
 @pytest.mark.parametrize(("ended", "below"), [(0.327, True), (0.329, False)])
@@ -356,3 +367,8 @@ def test_no_step_is_known():
 def test_the_premise_by_groups(verdicts, words):
     groups = [group(1000 * k, verdict, 0.4 + k / 100) for k, verdict in enumerate(verdicts, 1)]
     assert words in premise([], groups)
+    alone = {"n_points": 8000, "premise": None}
+    asked = design(repetitions=(6, 6, 6, 1))
+    said = premise([], [*groups, alone], asked)
+    has = "has" if "every" in words else "have"
+    assert words.replace(": ", f" that {has} a spread: ") in said

@@ -10,6 +10,9 @@ from scipy import stats
 
 from reports.study_page.sections import alarms
 from study.analysis.building import MISSING
+from study.analysis.part_means import LAYER_MEANS
+from study.paper.statements import STATEMENTS
+from study.statistics.verdicts import YES
 from study.text.numbers import p_value_from_log10
 
 HOLM = (
@@ -163,8 +166,16 @@ def test_a_size_with_one_triangulation_by_design_is_no_alarm_but_said(repetition
     assert (sentence in said.prose("assumptions")) == bool(single)
     assert ("one triangulation" in said.prose("assumptions")) == bool(single)
     assert alarms(said.evidence) == []
-    where = "every group with a spread" if single else "every group"
-    assert f"In {where} of uniform points the mean is" in said.prose("bounds")
+    spread = " that has a spread" if single else ""
+    assert f"In every group of uniform points{spread} the mean is" in said.prose("bounds")
+    assert f"in every group{spread}: the least chance" in said.prose("types")
+    lonely = "of one triangulation, too few for an interval"
+    assert (said.tiles()["Mean LEPP at 8,000 points"][1] == lonely) == single.endswith("8,000")
+    told = 4000 if single.endswith("8,000") else 8000
+    assert said.evidence.rows(LAYER_MEANS)["n_points"].max() == told
+    assert f"At {told:,} points the edge has" in said.prose("layers")
+    premise = said.evidence.rows(STATEMENTS, source="Premise of Theorem 2")
+    assert set(premise["holds"]) == {YES}
 
 
 @pytest.mark.parametrize("name", ["level", "narrowing", "widening"])

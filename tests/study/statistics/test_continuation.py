@@ -6,13 +6,12 @@ import statsmodels.api as sm
 from scipy import optimize, stats
 
 from study.statistics.continuation import (
-    ENOUGH,
     continuation,
     fit_constant,
     fit_power,
     longest_expected,
 )
-from study.statistics.groups import NotEnough
+from study.statistics.groups import ENOUGH, NotEnough
 from study.statistics.intervals import ratio_interval
 
 TRUE = (0.9, 0.35, 0.5)
