@@ -146,8 +146,8 @@ def large(number: float) -> str:
 
 
 def thousands(number: int) -> str:
-    """Write a number of points for a cramped axis: ``500``, ``10k``, ``2.5M``."""
-    for size, letter in ((10**6, "M"), (10**3, "k")):
+    """Write a number of points for a cramped axis: ``500``, ``10k``, ``2.5M``, ``1B``."""
+    for size, letter in ((10**9, "B"), (10**6, "M"), (10**3, "k")):
         if number >= size:
             return f"{number / size:g}{letter}"
     return str(number)

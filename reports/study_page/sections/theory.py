@@ -29,7 +29,7 @@ from study.analysis.theorems import (
 )
 from study.statistics.thresholds import ROUGH_RATE
 from study.statistics.verdicts import NO, YES
-from study.text.numbers import listed, show
+from study.text.numbers import count, listed, show
 
 
 def section(evidence: Evidence) -> Section:
@@ -236,16 +236,15 @@ def _moments(evidence: Evidence) -> FigureBlock:
         )
 
     def say(view: View) -> str | None:
-        rows = evidence.rows(THEOREM_1, view)
+        every = evidence.rows(THEOREM_1, view).frame
+        rows = every.dropna(subset="low")
         if rows.empty:
             return None
-        inside = int(
-            ((rows["low"] <= rows["predicted"]) & (rows["predicted"] <= rows["high"])).sum()
-        )
+        inside = int(rows["predicted"].between(rows["low"], rows["high"]).sum())
         return (
             f"With p of the first step, Theorem 1's value lies inside the {LEVEL} interval of the "
-            f"measured one in {inside} of {len(rows)} cases (four moments at each number of "
-            "points)."
+            f"measured one in {inside} of {count(len(rows), 'case')} (four moments at each number "
+            f"of points{' that has intervals' if len(rows) < len(every) else ''})."
         )
 
     return FigureBlock(

@@ -285,11 +285,12 @@ def moments_inside(v: View, s: Sheet, k: int) -> str:
         for name, column in MOMENTS.items():
             _, low, high = mean_interval(rows[column].dropna().to_numpy())
             inside += low <= by_p[name] <= high
-            cases += 1
+            cases += not np.isnan(low)
+    some = " that has intervals" if v.run.single_sizes(v.method) else ""
     return (
         "With p of the first step, Theorem 1's value lies inside the 95 % interval of the "
         f"measured one in {s(inside)} of "
-        f"{s(cases)} cases (four moments at each number of points)."
+        f"{s(cases)} cases (four moments at each number of points{some})."
     )
 
 

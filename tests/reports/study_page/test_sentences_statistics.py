@@ -174,6 +174,11 @@ def test_a_size_with_one_triangulation_by_design_is_no_alarm_but_said(repetition
     told = 4000 if single.endswith("8,000") else 8000
     assert said.evidence.rows(LAYER_MEANS)["n_points"].max() == told
     assert f"At {told:,} points the edge has" in said.prose("layers")
+    cases = f"{16 - 4 * len(single.split(' and '))} cases" if single else "16 cases"
+    some = " that has intervals" if single else ""
+    assert said.finding("figure-moments").endswith(
+        f"of {cases} (four moments at each number of points{some})."
+    )
     premise = said.evidence.rows(STATEMENTS, source="Premise of Theorem 2")
     assert set(premise["holds"]) == {YES}
 

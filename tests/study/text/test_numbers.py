@@ -103,6 +103,8 @@ def test_words() -> None:
     assert thousands(10_000) == "10k"
     assert thousands(500) == "500"
     assert thousands(700_000) == "700k"
+    assert thousands(2_500_000) == "2.5M"
+    assert thousands(10**9) == "1B"
 
 
 @pytest.mark.parametrize(
