@@ -53,7 +53,7 @@ METHODS: dict[str, Method] = {
             "plain insertion",
             "inserts the points as they come and never flips an edge",
             incremental,
-            158,
+            145,
         ),
         Method(
             "delaunay",
