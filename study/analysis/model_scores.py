@@ -72,10 +72,12 @@ PREDICTIONS = Declaration(
         N_POINTS,
         Column("mean_lepp", "Mean LEPP", "triangles", "fixed4"),
         Column("prediction", "Predicted", "triangles", "fixed4"),
+        Column("low", f"{LEVEL} from", "triangles", "fixed4"),
+        Column("high", f"{LEVEL} to", "triangles", "fixed4"),
         Column("difference", "Measured less predicted", "standard errors", "fixed1"),
     ),
-    note="Each size by itself, from the fits of the table of models. The standard error is that of "
-    "the difference: the fit's and the mean's.",
+    note="Each size by itself, from the fits of the table of models. The interval is that of the "
+    "fit, the standard error that of the difference: the fit's and the mean's.",
 )
 
 PROJECTIONS = Declaration(
@@ -146,13 +148,17 @@ def _predicted(trend: Trend, one: Candidate) -> list:
 
 
 def _predictions(trend: Trend) -> Iterator[Row]:
+    seen = trend.means.where(trend.fitted)
     for one in trend.candidates:
         for each in _predicted(trend, one):
+            interval = value_interval(one.model, seen, each.n_points / 1000)
             yield trend.key | {
                 "model": one.model.name,
                 "n_points": each.n_points,
                 "mean_lepp": each.mean,
                 "prediction": each.prediction,
+                "low": interval.low,
+                "high": interval.high,
                 "difference": each.standard_errors,
             }
 

@@ -41,6 +41,9 @@ from study.statistics.thresholds import REFUTED_BELOW
 from study.statistics.verdicts import REJECTED
 from study.text.numbers import count, listed, p_is, show, ten_to
 
+#: What the legend calls the space between the ends of an interval.
+_BAND = f"{LEVEL} of what a model that survives predicts"
+
 
 def section(evidence: Evidence) -> Section:
     """Predictions of sizes not seen, the verdict, projections, Table 7."""
@@ -295,7 +298,9 @@ def _figure(evidence: Evidence, name: str, title: str, paper: str, which: str) -
 
     fitted = {
         PREDICTION: "curves are weighted fits of the models that survive and of the paper's "
-        "logarithmic one, to the sizes up to the upright line only, and go on beyond it",
+        "logarithmic one, to the sizes up to the upright line only, and go on beyond it; shaded is "
+        f"the {LEVEL} interval of what a model that survives predicts there, which holds if the "
+        "model does",
         LEAST_SQUARES: "curves are least squares fits to all sizes, of the paper's four models",
     }[which]
     return FigureBlock(
@@ -312,7 +317,8 @@ def _figure(evidence: Evidence, name: str, title: str, paper: str, which: str) -
 def _panel(evidence: Evidence, view: View, part: str, which: str) -> style.Panel | None:
     means = evidence.rows(PART_MEANS, view, part=part)
     curves = evidence.rows(CURVES, view, part=part, view=which).frame
-    traces: list[Spec] = []
+    traces = _bands(evidence, view, part) if which == PREDICTION else []
+    first = len(traces)
     models = LINEAR_MODELS if which == LEAST_SQUARES else MODELS
     for series, model in enumerate(one.name for one in models):
         rows = evidence.rows(CURVES, view, part=part, model=model, view=which)
@@ -326,12 +332,12 @@ def _panel(evidence: Evidence, view: View, part: str, which: str) -> style.Panel
                     legendgroup=model,
                     showlegend=part == WHOLE,
                     # Pale and wide, the first is seen beside one that lies on it.
-                    line=style.line(series, 2 if traces else 5),
-                    opacity=1 if traces else 0.5,
+                    line=style.line(series, 2 if len(traces) > first else 5),
+                    opacity=1 if len(traces) > first else 0.5,
                     hovertemplate="%{x:,} points: %{y:.4f}<extra>" + model + "</extra>",
                 )
             )
-    if means.empty or not traces:
+    if means.empty or len(traces) == first:
         return None
     low, high = _heights(means["mean_lepp"], curves if which == PREDICTION else curves[:0])
     # Of all panels, so that all are logarithmic or none.
@@ -373,6 +379,20 @@ def _panel(evidence: Evidence, view: View, part: str, which: str) -> style.Panel
         style.axis("Mean LEPP size", range=[low, high]),
         title=f"The {part}{' mesh' if part == WHOLE else ''}",
     )
+
+
+def _bands(evidence: Evidence, view: View, part: str) -> list[Spec]:
+    """Fill the intervals of what the models that survive predict."""
+    traces: list[Spec] = []
+    for model in evidence.rows(MODEL_SCORES, view, part=part, standing=SURVIVES)["model"]:
+        rows = evidence.rows(PREDICTIONS, view, part=part, model=model)
+        if len(rows) > 1:
+            low, high = style.band(
+                rows.column("n_points"), rows.column("low"), rows.column("high"), _BAND
+            )
+            shown = part == WHOLE and not traces
+            traces += [low, high | {"legendgroup": "band", "showlegend": shown}]
+    return traces
 
 
 def _heights(means: pd.Series, curves: pd.DataFrame) -> tuple[float, float]:

@@ -69,7 +69,8 @@ DEFINITIONS: dict[str, frozenset[str]] = {
             "sizes, of the paper's four models.",
             "Dots are the means with 95 % intervals; curves are weighted fits of the models "
             "that survive and of the paper's logarithmic one, to the sizes up to the upright "
-            "line only, and go on beyond it.",
+            "line only, and go on beyond it; shaded is the 95 % interval of what a model that "
+            "survives predicts there, which holds if the model does.",
             "Bars are 95 % intervals: narrow where regions are many, wide where they are few.",
             "Every edge across the strip is longer than the one to its left.",
             "If the points are random, the bars are level with the dashed line, give or take.",

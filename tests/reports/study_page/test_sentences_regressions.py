@@ -326,11 +326,26 @@ def test_figures_draw_the_models_that_they_are_about():
     traces = figure_of(text, "fits", "figure-projections")
     surviving = set(whole(text, "model_scores", standing="survives")["model"])
     last = [t["name"] for t in traces].index("means")
+    band = "95 % of what a model that survives predicts"
     assert {t["name"] for t in traces[:last]} == (
-        surviving | {"logarithmic", "end of the sizes fitted"}
+        surviving | {"logarithmic", "end of the sizes fitted", band.replace(" %", "\u00a0%")}
     )
     end = next(t for t in traces if t["name"] == "end of the sizes fitted")
     assert end["x"] == [200_000, 200_000]
+
+
+def test_the_bands_are_of_the_models_that_survive():
+    text = grown("saturating", "slow")
+    traces = figure_of(text, "fits", "figure-projections")
+    surviving = whole(text, "model_scores", standing="survives")["model"]
+    assert 0 < len(surviving) < 9
+    bands = [t for t in traces if t["line"].get("width") == 0 and t.get("yaxis", "y") == "y"]
+    ends = [whole(text, "predictions", model=name) for name in surviving]
+    assert [list(t["y"]) for t in bands] == [
+        rows[end].tolist() for rows in ends for end in ("low", "high")
+    ]
+    assert [t.get("fill") for t in bands] == [None, "tonexty"] * len(surviving)
+    assert sum(t.get("showlegend", True) for t in bands) == 1
 
 
 def test_a_curve_that_leaves_the_means_does_not_squeeze_the_others():

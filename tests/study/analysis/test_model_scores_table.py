@@ -79,6 +79,23 @@ def test_the_worst_prediction_is_the_one_furthest_off(scored):
         assert (np.sign(off) == np.sign(each["difference"])).all()
 
 
+def test_what_a_logarithm_predicts_has_the_interval_of_weighted_least_squares(scored):
+    _, trend, _, predictions, _ = scored
+    assert (predictions["low"] <= predictions["prediction"]).all()
+    assert (predictions["prediction"] <= predictions["high"]).all()
+    seen = SIZES <= 200_000
+    basis = np.column_stack([np.ones(8), np.log2(SIZES)])
+    fit = WLS(trend.means.means[seen], basis[seen], weights=ERRORS[seen] ** -2.0).fit(
+        cov_type="fixed scale"
+    )
+    rows = predictions[predictions["model"] == LOGARITHMIC.name]
+    errors = np.sqrt(np.einsum("ij,jk,ik->i", basis[~seen], fit.cov_params(), basis[~seen]))
+    half = stats.t.ppf(0.975, 60) * errors
+    np.testing.assert_allclose(rows["prediction"], basis[~seen] @ fit.params)
+    np.testing.assert_allclose(rows["high"] - rows["prediction"], half, rtol=1e-3)
+    np.testing.assert_allclose(rows["prediction"] - rows["low"], half, rtol=1e-3)
+
+
 def test_projections_of_a_logarithm_are_those_of_weighted_least_squares(scored):
     name, trend, scores, _, projections = scored
     alive = set(scores.query("standing == 'survives' and has_limit != '–'")["model"])
