@@ -339,7 +339,9 @@ def test_the_bands_are_of_the_models_that_survive():
     traces = figure_of(text, "fits", "figure-projections")
     surviving = whole(text, "model_scores", standing="survives")["model"]
     assert 0 < len(surviving) < 9
-    bands = [t for t in traces if t["line"].get("width") == 0 and t.get("yaxis", "y") == "y"]
+    bands = [
+        t for t in traces if t.get("line", {}).get("width") == 0 and t.get("yaxis", "y") == "y"
+    ]
     ends = [whole(text, "predictions", model=name) for name in surviving]
     assert [list(t["y"]) for t in bands] == [
         rows[end].tolist() for rows in ends for end in ("low", "high")
