@@ -30,7 +30,7 @@ from study.run.point_checks import (
 )
 from study.run.ranks import Values
 
-Bins = NDArray[np.int64]
+BinNumbers = NDArray[np.int64]
 
 #: Bins per square root of the number of points, at least. The distance is about 1 / root, and
 #: a bin's bound exceeds the distances in it by the bin's probability: with so many bins less than
@@ -88,7 +88,7 @@ class AxisPlan:
     """
 
     median_bins: tuple[int, int]
-    distance_bins: Bins
+    distance_bins: BinNumbers
     counts: NDArray[np.int64]
     first_ranks: NDArray[np.int64]
 
@@ -197,7 +197,7 @@ def _plan_axis(counts: NDArray[np.int64], distribution: str) -> AxisPlan:
     ends = np.cumsum(counts)
     n = int(ends[-1])
     low, high = np.searchsorted(ends, middle_ranks(n), side="right").tolist()
-    # As in `kolmogorov_distance`, with the edges of a bin for its values: F is at least
+    # As in `bins_with_distance`, with bins for blocks: F is at least
     # `at_lower` and at most `at_upper` at each of them, of ranks starts <= i < ends.
     filled = np.flatnonzero(counts)
     counts, ends = counts[filled], ends[filled]
@@ -229,7 +229,7 @@ def extract(points: Points, first: int, plan: Plan) -> Extract:
     return Extract(first, len(points), x, y)
 
 
-def _extract_axis(values: Values, bins: Bins, plan: AxisPlan, n_bins: int) -> AxisExtract:
+def _extract_axis(values: Values, bins: BinNumbers, plan: AxisPlan, n_bins: int) -> AxisExtract:
     low, high = plan.median_bins
     above = bins > high
     open_side = np.flatnonzero((bins >= low) & ~above)
@@ -309,7 +309,7 @@ def _narrowed(counts: NDArray[np.unsignedinteger]) -> NDArray[np.unsignedinteger
     return counts.astype(np.min_scalar_type(counts.max()))
 
 
-def _bins(values: Values, distribution: str, n_bins: int) -> Bins:
+def _bins(values: Values, distribution: str, n_bins: int) -> BinNumbers:
     """Return the bin of each value, from 0 to n_bins; a greater value has no smaller bin."""
     bins = np.empty(len(values), np.int64)
     for start in range(0, len(values), _CHUNK):

@@ -63,13 +63,12 @@ def _p_values(values: Values, cdf: Callable[[Values], Values]) -> tuple[float, f
     middle = np.array(middle_ranks(n))
     bins = Bins.of(values)
     wanted = bins_with_distance(bins, cdf)
-    low, high = bins.holding(middle).tolist()
-    wanted[low : high + 1] = True
+    first, last = bins.holding(middle).tolist()
+    wanted[first : last + 1] = True
     ordered, ranks = bins.take(wanted)
     low, high = ordered[np.searchsorted(ranks, middle)].tolist()
-    distance = largest_distance(cdf(ordered), ranks, n)
     runs_p = runs_p_value(count_sides(values, (low + high) / 2))
-    return runs_p, kolmogorov_p_value(distance, n)
+    return runs_p, kolmogorov_p_value(largest_distance(cdf(ordered), ranks, n), n)
 
 
 def middle_ranks(n: int) -> tuple[int, int]:
@@ -77,7 +76,7 @@ def middle_ranks(n: int) -> tuple[int, int]:
     return (n - 1) // 2, n // 2
 
 
-def median_of_ordered(ordered: Values, n: int, n_below: int = 0) -> float:
+def median_of_ordered(ordered: Values, n: int, n_below: int) -> float:
     """Return the median of n values.
 
     Parameters

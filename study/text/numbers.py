@@ -75,7 +75,7 @@ def significant(number: float, digits: int) -> str:
 
 
 def percent(share: float, digits: int) -> str:
-    """Write a share times 100, with so many decimals; one that they would show as 0 as below 1."""
+    """Write a share times 100, with so many decimals; as ``< 0.01 %`` where they would show 0."""
     least = 10.0**-digits
     if 0 < 100 * share < least / 2:
         return f"<{SPACE}{least:.{digits}f}{SPACE}%"
