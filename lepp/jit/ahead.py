@@ -170,7 +170,8 @@ class _Helper(event.Listener):  # type: ignore[misc]  # numba has no types
         environment = {"PYTHONPATH": path, "NUMBA_CACHE_DIR": numba.config.CACHE_DIR}
         with suppress(OSError):  # there can be no more processes
             self._process = subprocess.Popen(
-                [sys.executable, "-c", code, *self._parts],
+                # Not from the working directory, which may hold the sources of what is installed.
+                [sys.executable, "-P", "-c", code, *self._parts],
                 env=os.environ | environment,
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,

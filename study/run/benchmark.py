@@ -247,7 +247,7 @@ print((max(seen) - seen[0]) / n)
 def memory(method: str, n_points: int) -> Measurement:
     """Measure the memory that a point set, its triangulation and its paths take at a time."""
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-    command = [sys.executable, "-c", _TAKEN, method, str(n_points)]
+    command = [sys.executable, "-P", "-c", _TAKEN, method, str(n_points)]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
     return Measurement("memory", method, n_points, 1, float(done.stdout))
 

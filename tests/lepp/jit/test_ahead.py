@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from numba.core import event
@@ -11,11 +12,13 @@ from lepp import METHODS
 from lepp.jit import ahead
 
 
-def run(code, *arguments, **environment):
+def run(code, *arguments, cwd=None, **environment):
     """Run code in a process of its own; return the words that it prints."""
+    root = str(Path(ahead.__file__).parents[2])
     return subprocess.run(
-        [sys.executable, "-c", code, *arguments],
-        env=os.environ | environment,
+        [sys.executable, "-P", "-c", code, *arguments],
+        env=os.environ | {"PYTHONPATH": root} | environment,
+        cwd=cwd,
         capture_output=True,
         text=True,
         check=True,
@@ -50,11 +53,17 @@ def test_two_processes_that_compile_the_same_leave_a_sound_cache(tmp_path):
     assert kernels == {"layers.layers_from_boundary", "layers.sizes_by_layer"}
 
 
+def test_what_lies_in_the_working_directory_is_not_compiled(tmp_path):
+    (tmp_path / "lepp").mkdir()
+    (tmp_path / "lepp" / "__init__.py").write_text("raise SystemExit('this is another')")
+    assert run(TWO_AT_ONCE, cwd=tmp_path, NUMBA_CACHE_DIR=str(tmp_path / "cache")) == ["0"]
+
+
 class Process:
     """A process that is only said to run."""
 
     def __init__(self, command, **_):
-        self.parts, self.ended = command[3:], []
+        self.parts, self.ended = command[4:], []
         Process.started.append(self)
 
     def terminate(self):
