@@ -78,8 +78,8 @@ main.add_command(mesh)
     "--preset",
     metavar="NAME",
     help="A design that comes with lepp-study: paper (if nothing else is said), delaunay, both, "
-    "beyond, which goes to 10 million points and takes about an hour, or smoke, which takes "
-    "seconds.",
+    "beyond, which goes to 10 million points and takes about an hour, beyond-billion, which goes "
+    "on to a billion and takes some hours, or smoke, which takes seconds.",
 )
 @click.option(
     "--config",

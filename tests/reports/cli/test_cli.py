@@ -13,7 +13,7 @@ from tiny_runs import store_run
 
 from reports.cli.main import main
 from reports.cli.parameters import Duration
-from study.design.design import Design
+from study.design.design import Design, preset_names
 from study.results.store import Store, load
 from study.run.local import LocalWorkers
 from study.run.triangulations import TRIANGULATIONS, Triangulations
@@ -283,6 +283,13 @@ def test_an_unknown_command_lists_the_known():
     result = lepp_study("rnu")
     assert result.exit_code == 2
     assert "no command 'rnu'; the commands are bench, " in result.output
+
+
+def test_the_help_names_every_preset():
+    said = " ".join(lepp_study("run", "--help").output.split())
+    offered = said.partition("A design that comes with lepp-study:")[2].partition(" --config ")[0]
+    words = offered.replace(",", " ").replace(".", " ").replace("- ", "-").split()
+    assert set(preset_names()) <= set(words)
 
 
 def test_help_and_version_import_nothing_heavy():
