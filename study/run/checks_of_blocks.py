@@ -24,7 +24,6 @@ from study.run.point_checks import (
     count_sides,
     kolmogorov_p_value,
     largest_distance,
-    median_of_ordered,
     middle_ranks,
     runs_p_value,
 )
@@ -295,9 +294,26 @@ def _axis_p_values(plan: Plan, axis: AxisPlan, blocks: list[AxisExtract]) -> tup
 
     left_out = sum((block.left_out for block in blocks), Sides(0, 0, 0))
     kept = np.concatenate([block.kept for block in blocks])
-    median = median_of_ordered(np.sort(kept), n, left_out.n_below)
+    median = _median_of_ordered(np.sort(kept), n, left_out.n_below)
     runs_p = runs_p_value(left_out + count_sides(kept, median))
     return runs_p, kolmogorov_p_value(distance, n)
+
+
+def _median_of_ordered(ordered: Values, n: int, n_below: int) -> float:
+    """Return the median of n values.
+
+    Parameters
+    ----------
+    ordered : (k,) float64 ndarray
+        Values in ascending order, the middle ones of the n among them.
+    n : int
+        Number of all values.
+    n_below : int
+        How many of those that are not in `ordered` lie below the middle ones; the others of
+        them lie above.
+    """
+    low, high = middle_ranks(n)
+    return float((ordered[low - n_below] + ordered[high - n_below]) / 2)
 
 
 def _n_bins(n_points: int) -> int:

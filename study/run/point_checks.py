@@ -76,23 +76,6 @@ def middle_ranks(n: int) -> tuple[int, int]:
     return (n - 1) // 2, n // 2
 
 
-def median_of_ordered(ordered: Values, n: int, n_below: int) -> float:
-    """Return the median of n values.
-
-    Parameters
-    ----------
-    ordered : (k,) float64 ndarray
-        Values in ascending order, the middle ones of the n among them.
-    n : int
-        Number of all values.
-    n_below : int
-        How many of those that are not in `ordered` lie below the middle ones; the others of
-        them lie above.
-    """
-    low, high = middle_ranks(n)
-    return float((ordered[low - n_below] + ordered[high - n_below]) / 2)
-
-
 @dataclass(frozen=True)
 class Sides:
     """On which sides of their median the values of a sequence lie; sequences add up.

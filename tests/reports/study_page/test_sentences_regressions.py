@@ -13,7 +13,7 @@ from made_runs import DESIGN, drawn, page, page_text, run
 from statsmodels.regression.linear_model import OLS
 
 from reports.study_page.sections.limit import trend_sentence
-from reports.study_page.sections.regressions import _figure, _heights
+from reports.study_page.sections.model_curves import _heights, curves_figure
 from study.analysis import limits, model_scores, regressions
 from study.analysis.limits import EDGE_LIMITS, LIMIT_VERDICTS
 from study.analysis.regressions import PREDICTION
@@ -404,7 +404,7 @@ def test_panels_of_one_figure_have_one_kind_of_axis():
     small = curves.frame["n_points"] < curves.frame["n_points"].max() / 20
     changed = replace(curves, frame=curves.frame[~(of_interior & small)])
     evidence = replace(evidence, tables=adding(evidence.tables, changed))
-    block = _figure(evidence, block.id, block.title, "Figure 7", PREDICTION)
+    block = curves_figure(evidence, block.id, block.title, "Figure 7", PREDICTION)
     layout = block.specs["incremental/uniform"]["layout"]
     kinds = [axis.get("type") for name, axis in layout.items() if name.startswith("xaxis")]
     assert kinds == ["log", "log"]
