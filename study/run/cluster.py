@@ -11,21 +11,18 @@ from time import sleep
 from typing import Any
 
 import dask
-import distributed
 from dask.system import CPU_COUNT
 from distributed.versions import VersionMismatchWarning
 
 from lepp import InputError
 from study.run.admission import AdmittedWorkers
+from study.run.client import connected
 from study.run.kinds import Kind
 from study.run.local import REPLACE_SECONDS, check_dashboard, local
 from study.run.loggers import SILENCE
 from study.run.memory import USABLE, check_memory, free_memory
 from study.run.waiting import PATIENCE_SECONDS, Waiting
 from study.run.workers import Workers
-
-# Few functions of distributed are annotated.
-_distributed: Any = distributed
 
 CONNECT_SECONDS = 30
 _POLL_SECONDS = 0.2
@@ -219,7 +216,7 @@ def _remote(scheduler: str, note: Callable[[str], None]) -> Iterator[Any]:
             _told_if_long(f"Connecting to the scheduler at {scheduler}.", note),
             warnings.catch_warnings(action="ignore", category=VersionMismatchWarning),
         ):
-            client = _distributed.Client(scheduler, timeout=CONNECT_SECONDS)
+            client = connected(scheduler, CONNECT_SECONDS)
     except Exception as error:  # what listens there may be anything, and send anything
         advice = "check the address, which looks like tcp://10.0.0.1:8786, or tls:// where " + (
             "certificates are asked for"

@@ -15,6 +15,7 @@ import distributed
 from distributed import Client, Status
 
 from lepp import InputError
+from study.run.client import connected
 from study.run.loggers import SILENCE
 from study.run.memory import free_memory
 from study.run.workers import Workers
@@ -25,6 +26,7 @@ _distributed: Any = distributed
 #: How long to try to have a worker again.
 REPLACE_SECONDS = 300.0
 _LOOK_SECONDS = 0.5
+_CONNECT_SECONDS = 30
 _CLOSE_SECONDS = 20
 
 _SETTINGS = {
@@ -149,7 +151,7 @@ def local(
             ) from error
         client = None
         try:
-            client = _distributed.Client(cluster)
+            client = connected(cluster, _CONNECT_SECONDS)
             if dashboard:
                 note(f"Dask's dashboard: {cluster.dashboard_link}")
             if worker_memory is None:

@@ -1,3 +1,4 @@
+import gc
 import os
 import signal
 import socket
@@ -7,8 +8,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from time import sleep
 
+import dask
 import psutil
 import pytest
+from distributed import Client
 from faults import DESIGN, TASKS, Heard, contents, worker_processes
 
 from lepp import InputError
@@ -233,3 +236,32 @@ def test_a_scheduler_that_does_not_answer_is_named(tmp_path, monkeypatch):
         options = ClusterOptions(scheduler=address)
         with pytest.raises(InputError, match="No scheduler answers at"):
             run(tmp_path, TRIANGULATIONS, DESIGN, options=options, listener=Heard())
+
+
+def test_no_client_of_a_failed_connection_is_left_open(tmp_path, monkeypatch):
+    # Python would close it in any thread, also in one that another client starts and waits for.
+    monkeypatch.setattr("study.run.cluster.CONNECT_SECONDS", 1)
+    gc.disable()  # so that it is there to be looked at
+    try:
+        before = open_clients()
+        for address in ("tcp://127.0.0.1:1", "nonsense://x"):
+            options = ClusterOptions(scheduler=address)
+            with pytest.raises(InputError, match="No scheduler answers at"):
+                run(tmp_path, TRIANGULATIONS, DESIGN, options=options, listener=Heard())
+        assert open_clients() == before
+    finally:
+        gc.enable()
+
+
+def test_the_reason_of_a_client_that_is_not_even_made_is_told(tmp_path):
+    options = ClusterOptions(scheduler="tcp://127.0.0.1:1")
+    with (
+        dask.config.set({"distributed.comm.tls.min-version": 9}),
+        pytest.raises(InputError, match="min-version=9 is not supported"),
+    ):
+        run(tmp_path, TRIANGULATIONS, DESIGN, options=options, listener=Heard())
+
+
+def open_clients():
+    clients = [found for found in gc.get_objects() if isinstance(found, Client)]
+    return {id(client): client.status for client in clients if client.status != "closed"}
