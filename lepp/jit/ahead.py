@@ -1,8 +1,7 @@
-"""Compiling ahead: what will be needed, by two processes, before many others start.
+"""Compiling ahead: what will be needed, by some processes, before many others start.
 
-The kernels fall into parts, each of which a tiny example compiles by itself. They stand in such an
-order that one process can begin at the front and another at the back: what one has done the other
-loads from the cache, and they meet among the small parts in the middle.
+The kernels fall into parts, each of which a tiny example compiles by itself. They wait in a pipe,
+from which each process takes the next one; what another has compiled is loaded from the cache.
 """
 
 import gc
@@ -41,8 +40,11 @@ _WITH_ONE_INSIDE = np.array([[0.0, 0.0], [1.0, 0.1], [0.0, 1.3], [0.3, 0.4]])
 
 
 def _hull() -> None:
-    roots = hull_roots(_POINTS)
-    settle_by_cells(_POINTS, 3, roots.rows, roots.places)
+    hull_roots(_POINTS)
+
+
+def _cells() -> None:
+    settle_by_cells(_POINTS, 3, np.array([[0, 1, 2, 0, 2, 4]], np.int32), nobody_placed(4))
 
 
 def _subdivision() -> None:
@@ -62,17 +64,10 @@ def _cavities() -> None:
     inserted(_POINTS, space)
 
 
-def _lengths() -> None:
-    edge_ranks(_POINTS, _TRIANGLES)
-
-
-def _paths(points: np.ndarray = _POINTS) -> object:
-    paths = lepp_paths(Triangulation(points, _TRIANGLES, _NEIGHBORS))
-    return paths.regions, paths.region_counts
-
-
-def _equal_lengths() -> None:
-    _paths(np.array([[0.0, 0.0], [2.0, 0.0], [1.0, 2.0], [3.0, 2.0]]))
+def _paths() -> object:
+    mesh = Triangulation(_POINTS, _TRIANGLES, _NEIGHBORS)
+    object.__setattr__(mesh, "_edge_ranks", np.ones(2, np.uint8))  # as of all that is triangulated
+    return lepp_paths(mesh).region_counts
 
 
 def _layers() -> None:
@@ -80,9 +75,11 @@ def _layers() -> None:
     sizes_by_layer(layers, np.ones(2, np.int32))
 
 
-def _meshes() -> None:
-    Triangulation.from_arrays(_POINTS, _TRIANGLES)
+def _meshes() -> object:
     edge_ranks(np.column_stack((_POINTS, np.zeros(4))), _TRIANGLES)
+    isosceles = np.array([[0.0, 0.0], [2.0, 0.0], [1.0, 2.0], [3.0, 2.0]])
+    meshes = [Triangulation.from_arrays(points, _TRIANGLES) for points in (_POINTS, isosceles)]
+    return [lepp_paths(mesh).regions for mesh in meshes]
 
 
 def _tiles() -> None:
@@ -93,20 +90,24 @@ def _tiles() -> None:
     crossings(fine_mesh(coarse, 0, collect([(located.placed, located.counts, 0)])))
 
 
+# Long ones first, so that all end at about the same time; the second takes no predicate, which are
+# compiled with the first meanwhile.
 _PARTS: dict[str, Callable[[], object]] = {
     "hull": _hull,
-    "curve": _curve,
-    "tiles": _tiles,
-    "equal lengths": _equal_lengths,
-    "paths": _paths,
-    "meshes": _meshes,
-    "lengths": _lengths,
-    "subdivision": _subdivision,
+    "layers": _layers,
     "cavities": _cavities,
-    "layers": _layers,  # takes no predicate: those are compiled meanwhile
+    "subdivision": _subdivision,
+    "tiles": _tiles,
+    "meshes": _meshes,
+    "curve": _curve,
+    "cells": _cells,
+    "paths": _paths,
 }
-_OF_METHODS = {"incremental": {"hull", "subdivision"}, "delaunay": {"curve", "cavities"}}
-_OF_ALL = {"lengths", "paths", "equal lengths", "layers"}
+_OF_METHODS = {"incremental": {"hull", "cells", "subdivision"}, "delaunay": {"curve", "cavities"}}
+_OF_ALL = {"paths", "layers"}
+
+_MOST_PROCESSES = 4  # the longest part takes a quarter of the time of all
+_PATIENCE_SECONDS = 60
 
 
 def compile_kernels(
@@ -124,7 +125,8 @@ def compile_kernels(
     tiles : bool
         Whether there will be triangulations in tiles.
     meshes : bool
-        Whether there will be meshes of others, in the plane or in space.
+        Whether there will be meshes of others, in the plane or in space, with edges that are
+        equally long, as no two of random points are, and with regions to look at.
     """
     wanted = _OF_ALL.union(*(_OF_METHODS.get(method, set()) for method in methods))
     wanted |= ({"tiles"} if tiles else set()) | ({"meshes"} if meshes else set())
@@ -132,58 +134,90 @@ def compile_kernels(
 
 
 def compile_parts(parts: list[str]) -> None:
-    """Compile some parts, from the front here and from the back in another process."""
-    helper = _Helper(parts[::-1])
+    """Compile some parts, or load them, together with other processes if there is a cache."""
+    read, write = os.pipe()
     try:
-        with event.install_listener("numba:compile", helper):
-            _make(parts)
+        os.write(write, bytes(range(len(parts))))
+        os.close(write)
+        helpers = _Helpers(parts, read)
+        try:
+            with event.install_listener("numba:compile", helpers):
+                made = take_parts(parts, read)
+            helpers.wait()
+        finally:
+            helpers.stop()
+        for part in parts:
+            if part not in made:
+                _PARTS[part]()
     finally:
-        helper.stop()
+        os.close(read)
 
 
-def _make(parts: Iterable[str]) -> None:
+def take_parts(parts: list[str], numbers: int) -> list[str]:
+    """Compile the parts whose numbers can be had, a byte each, from a file descriptor."""
+    made = []
     # A compiler holds much and lets go of little: collecting garbage takes a twentieth of its time.
     collects = gc.isenabled()
     gc.disable()
     try:
-        for part in parts:
+        while number := os.read(numbers, 1):
+            part = parts[number[0]]
             _PARTS[part]()
+            made.append(part)
     finally:
         if collects:
             gc.enable()
+    return made
 
 
-class _Helper(event.Listener):  # type: ignore[misc]  # numba has no types
-    """A process that compiles parts, as soon as it is seen that there is anything to compile."""
+class _Helpers(event.Listener):  # type: ignore[misc]  # numba has no types
+    """Processes that take parts too, as soon as it is seen that there is anything to compile."""
 
-    def __init__(self, parts: list[str]) -> None:
-        # Without a cache it would help nobody.
-        wanted = CACHE_DIRECTORY is not None and (os.cpu_count() or 1) > 1 and len(parts) > 1
-        self._parts = parts if wanted else None
-        self._process: subprocess.Popen[bytes] | None = None
+    def __init__(self, parts: list[str], numbers: int) -> None:
+        # Without a cache they would help nobody.
+        n_processes = min(_n_cores(), len(parts), _MOST_PROCESSES)
+        self._n_to_start = n_processes - 1 if CACHE_DIRECTORY is not None else 0
+        self._parts = parts
+        self._numbers = numbers
+        self._processes: list[subprocess.Popen[bytes]] = []
 
     def on_start(self, event: event.Event) -> None:
-        if self._parts is None:
-            return
-        code = "import sys, lepp.jit.ahead as a; a._make(sys.argv[1:])"
+        # What the compiler holds is not given back piece by piece, which takes a second.
+        code = "import os, sys, lepp.jit.ahead as a; a.take_parts(sys.argv[1:], 0); os._exit(0)"
         path = os.pathsep.join(filter(None, sys.path))
         environment = {"PYTHONPATH": path, "NUMBA_CACHE_DIR": numba.config.CACHE_DIR}
+        n, self._n_to_start = self._n_to_start, 0
         with suppress(OSError):  # there can be no more processes
-            self._process = subprocess.Popen(
-                # Not from the working directory, which may hold the sources of what is installed.
-                [sys.executable, "-P", "-c", code, *self._parts],
-                env=os.environ | environment,
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,  # what fails there is done, and told, here
-            )
-        self._parts = None
+            for _ in range(n):
+                helper = subprocess.Popen(
+                    # Not from the working directory, which may hold the sources of what is
+                    # installed.
+                    [sys.executable, "-P", "-c", code, *self._parts],
+                    env=os.environ | environment,
+                    stdin=self._numbers,
+                    stdout=subprocess.DEVNULL,
+                    stderr=subprocess.DEVNULL,  # what fails there is done, and told, here
+                )
+                self._processes.append(helper)
 
     def on_end(self, event: event.Event) -> None:
         pass
 
+    def wait(self) -> None:
+        """Wait until each has done its last part, or seems never to do it."""
+        with suppress(subprocess.TimeoutExpired):
+            for helper in self._processes:
+                helper.wait(_PATIENCE_SECONDS)
+
     def stop(self) -> None:
-        """End the process: all is done, or nothing will be."""
-        if self._process is not None:
-            self._process.terminate()
-            self._process.wait()
+        """End the processes."""
+        for helper in self._processes:
+            helper.terminate()
+            helper.wait()
+
+
+def _n_cores() -> int:
+    """Return the number of cores that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
