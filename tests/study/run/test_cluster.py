@@ -175,12 +175,18 @@ class Cluster:
         self.closed.set()
 
 
-def test_a_client_that_cannot_connect_leaves_no_cluster(monkeypatch):
-    def fail(cluster):
-        raise RuntimeError("no client")
+def test_a_client_that_cannot_connect_leaves_nothing(monkeypatch):
+    closed = []
+
+    class Client:
+        def __init__(self, to, timeout):
+            raise RuntimeError("no client")
+
+        def close(self, timeout):
+            closed.append(self)
 
     monkeypatch.setattr("distributed.LocalCluster", Cluster)
-    monkeypatch.setattr("distributed.Client", fail)
+    monkeypatch.setattr("distributed.Client", Client)
     monkeypatch.setattr(Triangulations, "prepare", lambda self, design, memory: None)
     with (
         pytest.raises(RuntimeError, match="no client"),
@@ -188,6 +194,7 @@ def test_a_client_that_cannot_connect_leaves_no_cluster(monkeypatch):
     ):
         pass
     assert Cluster.last.closed.wait(10)
+    assert len(closed) == 1
 
 
 def test_workers_that_do_not_start_say_why(monkeypatch):
@@ -208,7 +215,7 @@ def test_workers_that_do_not_start_say_why(monkeypatch):
 
 def test_where_there_can_be_no_more_threads_the_cluster_is_closed_all_the_same(monkeypatch):
     class Client:
-        def __init__(self, cluster):
+        def __init__(self, to, timeout):
             pass
 
         def close(self, timeout):
