@@ -39,7 +39,8 @@ def connected(
     try:
         client.__init__(to, timeout=timeout)
     except BaseException:
-        with suppress(AttributeError):  # made so far that there is nothing to close
+        # It may have been made so far that there is nothing to close, or nothing that ends in time.
+        with suppress(AttributeError, OSError, RuntimeError):
             client.close(timeout=timeout)
         raise
     return client

@@ -184,6 +184,7 @@ def test_a_client_that_cannot_connect_leaves_nothing(monkeypatch):
 
         def close(self, timeout):
             closed.append(self)
+            raise TimeoutError  # which is not what is told
 
     monkeypatch.setattr("distributed.LocalCluster", Cluster)
     monkeypatch.setattr("distributed.Client", Client)
