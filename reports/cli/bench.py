@@ -61,13 +61,12 @@ def bench(
 def _measure_all(directory: Path, against: Path | None) -> None:
     from reports.bench_page.page import render
     from reports.cli.progress import progress
-    from reports.cli.signals import stop_once
     from study.results.files import write_text
     from study.run.benchmark import Benchmark, measure
 
     before = None if against is None else Benchmark.read(against)
     directory.mkdir(parents=True, exist_ok=True)
-    with progress() as listener, stop_once():
+    with progress() as listener:
         made = measure(listener)
     made.write(directory / "benchmark.parquet")
     write_text(directory / "benchmark.html", render(made, before))

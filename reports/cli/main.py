@@ -34,7 +34,8 @@ class Commands(click.Group):
     def invoke(self, ctx: click.Context) -> Any:  # noqa: ANN401 - as click declares it
         """Run a command; print the sentence of an `InputError` and exit with 2."""
         try:
-            return super().invoke(ctx)
+            with stop_once():
+                return super().invoke(ctx)
         except KeyboardInterrupt:
             click.echo("Stopped.", err=True)
             ctx.exit(exit_code())
@@ -162,7 +163,7 @@ def run(
     from study.run.cluster import ClusterOptions
 
     options = ClusterOptions(workers, scheduler, scheduler_file, wait, dashboard, worker_memory)
-    with progress() as listener, stop_once():
+    with progress() as listener:
         summary = _run(directory, kind, design, options, listener, repair=repair, extend=extend)
     computed = perf_counter()
     path = _write_report(directory)

@@ -1,0 +1,136 @@
+"""What stops a command, wherever it comes."""
+
+import gc
+import signal
+import sys
+from time import sleep
+
+import pytest
+from click.testing import CliRunner
+
+from reports.cli.main import main
+from reports.cli.signals import exit_code, stop_once
+
+
+@pytest.fixture(autouse=True)
+def signals():
+    """Have what a stopped process ignores afterwards be heard again."""
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    yield before
+    for number, handler in before.items():
+        signal.signal(number, handler)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_stops_and_those_that_follow_do_not(number):
+    closed = []
+
+    @stop_once()
+    def command():
+        try:
+            signal.raise_signal(number)
+        finally:
+            signal.raise_signal(signal.SIGINT)
+            signal.raise_signal(signal.SIGTERM)
+            closed.append(True)
+
+    with pytest.raises(KeyboardInterrupt):
+        command()
+    assert closed
+    assert exit_code() == 128 + number
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_that_a_callback_swallows_comes_again(number, capsys):
+    came = []
+
+    def callback(phase, info):
+        if not came:
+            came.append(phase)
+            signal.raise_signal(number)
+
+    @stop_once()
+    def command():
+        gc.collect()
+        assert came
+        sleep(20)
+
+    gc.callbacks.append(callback)
+    hook = sys.unraisablehook
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            command()
+    finally:
+        gc.callbacks.remove(callback)
+    assert exit_code() == 128 + number
+    assert sys.unraisablehook is hook
+    assert capsys.readouterr().err == ""
+
+
+def test_other_errors_of_callbacks_are_told_as_ever(monkeypatch):
+    told = []
+    monkeypatch.setattr(sys, "unraisablehook", lambda what: told.append(what.exc_type))
+
+    class Failing:
+        def __del__(self):
+            raise ValueError
+
+    class Interrupted:
+        def __del__(self):
+            raise KeyboardInterrupt  # not of a signal
+
+    with stop_once():
+        Failing()
+        Interrupted()
+    assert told == [ValueError, KeyboardInterrupt]
+
+
+def test_closing_goes_on_in_peace_when_a_callback_fails(monkeypatch):
+    told, closed = [], []
+    monkeypatch.setattr(sys, "unraisablehook", lambda what: told.append(what.exc_type))
+
+    class Failing:
+        def __del__(self):
+            raise ValueError
+
+    @stop_once()
+    def command():
+        try:
+            signal.raise_signal(signal.SIGINT)
+        finally:
+            Failing()
+            sleep(0.2)
+            closed.append(True)
+
+    with pytest.raises(KeyboardInterrupt):
+        command()
+    assert closed
+    assert told == [ValueError]
+
+
+def test_what_c_code_makes_of_a_signal_is_one():
+    @stop_once()
+    def command():
+        try:
+            signal.raise_signal(signal.SIGINT)
+        except KeyboardInterrupt as error:
+            raise SystemError("returned a result with an exception set") from error
+
+    with pytest.raises(KeyboardInterrupt):
+        command()
+
+
+def test_what_is_no_signal_is_none(signals):
+    with pytest.raises(SystemError), stop_once():
+        raise SystemError
+    assert {number: signal.getsignal(number) for number in signals} == signals
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_every_command_stops_with_a_word(number, monkeypatch, tmp_path):
+    def stopped(directory):
+        signal.raise_signal(number)
+
+    monkeypatch.setattr("reports.study_page.page.write_report", stopped)
+    answer = CliRunner().invoke(main, ["report", str(tmp_path)])
+    assert (answer.exit_code, answer.output) == (128 + number, "Stopped.\n")
