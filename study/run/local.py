@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from math import inf
 from multiprocessing import resource_tracker
-from threading import Thread
+from threading import Thread, current_thread, main_thread
 from time import monotonic
 from typing import Any
 
@@ -132,8 +132,9 @@ def local(
     """
     keeping = _KEEPING_MEMORY if worker_memory is None else {}
     with dask.config.set(_SETTINGS | keeping):
+        cluster = client = None
         try:
-            with _without_interrupts():
+            with _explained(), _without_interrupts(), _before_it_is_terminated():
                 cluster = _distributed.LocalCluster(
                     n_workers=n_workers,
                     threads_per_worker=1,
@@ -144,13 +145,6 @@ def local(
                     silence_logs=logging.CRITICAL,
                     **_dashboard_options(dashboard),
                 )
-        except (OSError, RuntimeError, TimeoutError) as error:
-            raise InputError(
-                f"The workers did not start: {_reason(error)}. Try fewer (--workers), and see "
-                "what limits this process (ulimit -a, /dev/shm)."
-            ) from error
-        client = None
-        try:
             client = connected(cluster, _CONNECT_SECONDS)
             if dashboard:
                 note(f"Dask's dashboard: {cluster.dashboard_link}")
@@ -188,6 +182,18 @@ def _dashboard_options(dashboard: bool) -> dict[str, Any]:
     }
 
 
+@contextmanager
+def _explained() -> Iterator[None]:
+    """Raise an `InputError` where the workers do not start."""
+    try:
+        yield
+    except (OSError, RuntimeError, TimeoutError) as error:
+        raise InputError(
+            f"The workers did not start: {_reason(error)}. Try fewer (--workers), and see "
+            "what limits this process (ulimit -a, /dev/shm)."
+        ) from error
+
+
 def _reason(error: BaseException) -> str:
     """Return what an error comes from: distributed wraps them several times."""
     while (cause := error.__cause__ or error.__context__) is not None:
@@ -214,9 +220,28 @@ def _without_interrupts() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
+@contextmanager
+def _before_it_is_terminated() -> Iterator[None]:
+    """Have SIGTERM wait for the end, as what is half started cannot be closed.
+
+    Not by the mask: the workers would never hear of theirs.
+    """
+    if current_thread() is not main_thread():  # which signals do not come to
+        yield
+        return
+    held: list[int] = []
+    before = signal.signal(signal.SIGTERM, lambda number, _: held.append(number))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+        if held:
+            signal.raise_signal(signal.SIGTERM)
+
+
 def _close(client: Any, cluster: Any) -> None:  # noqa: ANN401 - as `_distributed`
     # What does not end in time ends with this process.
     with SILENCE, suppress(TimeoutError, RuntimeError):
-        if client is not None:
-            client.close(timeout=_CLOSE_SECONDS)
-        cluster.close(timeout=_CLOSE_SECONDS)
+        for one in (client, cluster):
+            if one is not None:
+                one.close(timeout=_CLOSE_SECONDS)

@@ -1,5 +1,6 @@
 import json
 import logging
+import signal
 from threading import Event
 
 import dask
@@ -196,6 +197,40 @@ def test_a_client_that_cannot_connect_leaves_nothing(monkeypatch):
         pass
     assert Cluster.last.closed.wait(10)
     assert len(closed) == 1
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("starts", [True, False])
+def test_a_signal_while_workers_start_waits_until_they_can_be_closed(monkeypatch, number, starts):
+    stages = []
+
+    def stop(number, frame):
+        stages.append(number)
+        raise KeyboardInterrupt
+
+    class Starting(Cluster):
+        def __init__(self, **options):
+            super().__init__(**options)
+            signal.raise_signal(number)
+            stages.append("whole")
+            if not starts:  # as its workers had the signal too
+                raise RuntimeError("Nanny failed to start.")
+
+    monkeypatch.setattr("distributed.LocalCluster", Starting)
+    monkeypatch.setattr(Triangulations, "prepare", lambda self, design, memory: None)
+    before = signal.signal(number, stop)
+    try:
+        with (
+            pytest.raises(KeyboardInterrupt),
+            connect(TRIANGULATIONS, SMALL, ClusterOptions(workers=1), print),
+        ):
+            pass
+        assert signal.getsignal(number) is stop
+    finally:
+        signal.signal(number, before)
+    assert stages == ["whole", number]
+    if starts:
+        assert Cluster.last.closed.wait(10)
 
 
 def test_workers_that_do_not_start_say_why(monkeypatch):
