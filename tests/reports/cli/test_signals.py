@@ -41,6 +41,7 @@ def test_a_signal_stops_and_those_that_follow_do_not(number):
     with pytest.raises(KeyboardInterrupt):
         command()
     assert closed
+    signal.raise_signal(number)  # nor while Python ends
     assert exit_code() == 128 + number
 
 
@@ -170,8 +171,10 @@ def test_what_c_code_makes_of_a_signal_is_one():
 
 
 def test_what_is_no_signal_is_none(signals):
+    hook = sys.unraisablehook
     with pytest.raises(SystemError), stop_once():
         raise SystemError
+    assert sys.unraisablehook is hook
     assert {number: signal.getsignal(number) for number in signals} == signals
 
 
