@@ -241,7 +241,8 @@ def _before_it_is_terminated() -> Iterator[None]:
 
 def _close(client: Any, cluster: Any) -> None:  # noqa: ANN401 - as `_distributed`
     # What does not end in time ends with this process.
-    with SILENCE, suppress(TimeoutError, RuntimeError):
+    with SILENCE:
         for one in (client, cluster):
-            if one is not None:
-                one.close(timeout=_CLOSE_SECONDS)
+            with suppress(TimeoutError, RuntimeError):
+                if one is not None:
+                    one.close(timeout=_CLOSE_SECONDS)

@@ -249,6 +249,22 @@ def test_workers_that_do_not_start_say_why(monkeypatch):
         pass
 
 
+def test_a_cluster_is_closed_also_when_its_client_does_not_close_in_time(monkeypatch):
+    class Client:
+        def __init__(self, to, timeout):
+            pass
+
+        def close(self, timeout):
+            raise TimeoutError
+
+    monkeypatch.setattr("distributed.LocalCluster", Cluster)
+    monkeypatch.setattr("distributed.Client", Client)
+    monkeypatch.setattr(Triangulations, "prepare", lambda self, design, memory: None)
+    with connect(TRIANGULATIONS, SMALL, ClusterOptions(workers=1), print):
+        pass
+    assert Cluster.last.closed.wait(10)
+
+
 def test_where_there_can_be_no_more_threads_the_cluster_is_closed_all_the_same(monkeypatch):
     class Client:
         def __init__(self, to, timeout):
