@@ -7,7 +7,6 @@ from which each process takes the next one; what another has compiled is loaded 
 import gc
 import os
 import subprocess
-import sys
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 
@@ -17,6 +16,7 @@ from numba.core import event
 
 from lepp.geometry.hilbert import hilbert_order
 from lepp.geometry.lengths import edge_ranks
+from lepp.jit import child
 from lepp.jit.options import CACHE_DIRECTORY
 from lepp.mesh.triangulation import Triangulation
 from lepp.paths.layers import sizes_by_layer, triangle_layers
@@ -184,16 +184,12 @@ class _Helpers(event.Listener):  # type: ignore[misc]  # numba has no types
     def on_start(self, event: event.Event) -> None:
         # What the compiler holds is not given back piece by piece, which takes a second.
         code = "import os, sys, lepp.jit.ahead as a; a.take_parts(sys.argv[1:], 0); os._exit(0)"
-        path = os.pathsep.join(filter(None, sys.path))
-        environment = {"PYTHONPATH": path, "NUMBA_CACHE_DIR": numba.config.CACHE_DIR}
         n, self._n_to_start = self._n_to_start, 0
         with suppress(OSError):  # there can be no more processes
             for _ in range(n):
                 helper = subprocess.Popen(
-                    # Not from the working directory, which may hold the sources of what is
-                    # installed.
-                    [sys.executable, "-P", "-c", code, *self._parts],
-                    env=os.environ | environment,
+                    child.command(code, *self._parts),
+                    env=child.environment(NUMBA_CACHE_DIR=numba.config.CACHE_DIR),
                     stdin=self._numbers,
                     stdout=subprocess.DEVNULL,
                     stderr=subprocess.DEVNULL,  # what fails there is done, and told, here

@@ -1,8 +1,6 @@
 """How fast this machine is: rates, memory, and what Dask costs, beside `scipy.spatial.Delaunay`."""
 
-import os
 import subprocess
-import sys
 from collections.abc import Callable, Iterator
 from dataclasses import astuple, dataclass, fields
 from itertools import takewhile
@@ -21,6 +19,7 @@ from dask.system import CPU_COUNT
 
 import lepp
 from lepp import InputError
+from lepp.jit import child
 from study.design.design import Design
 from study.design.sampling import sample_points
 from study.results.files import replacing
@@ -246,9 +245,13 @@ print((max(seen) - seen[0]) / n)
 
 def memory(method: str, n_points: int) -> Measurement:
     """Measure the memory that a point set, its triangulation and its paths take at a time."""
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-    command = [sys.executable, "-P", "-c", _TAKEN, method, str(n_points)]
-    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        child.command(_TAKEN, method, str(n_points)),
+        env=child.environment(),
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     return Measurement("memory", method, n_points, 1, float(done.stdout))
 
 
